@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// The memory budget: what a build may allocate, checked before it allocates.
+
+#include <string>
+
+#include <connectivity/base/types.hpp>
+
+namespace connectivity {
+
+/// Bytes of memory that are free now on this host (0 where the system does not tell).
+Offset available_memory();
+
+struct Budget {
+    /// Largest number of bytes a product may take; 0 means 80 % of the memory that is free when the build starts.
+    Offset bytes = 0;
+
+    /// The number in force now.
+    Offset allowed() const;
+};
+
+/// "12.3 GiB"
+std::string human_bytes(Offset bytes);
+
+}  // namespace connectivity

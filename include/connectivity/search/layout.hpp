@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// How slots are numbered, and which of them have a stored row.
+///
+/// Invariants: slots of list k are [list_offset[k], list_offset[k+1]), internal nodes first; rows of list k are
+/// [row_offset[k], row_offset[k+1]) and belong to its first n_stored nodes. Row numbers have no gaps.
+
+#include <algorithm>
+#include <vector>
+
+#include <connectivity/base/types.hpp>
+
+namespace connectivity {
+
+struct ListSize {
+    Offset n = 0, n_internal = 0;
+};
+
+class SlotLayout {
+public:
+    SlotLayout() : list_offset_{0}, row_offset_{0} {}
+    SlotLayout(const std::vector<ListSize>& lists, bool ghost_rows);
+
+    int n_lists() const { return static_cast<int>(list_offset_.size()) - 1; }
+    Offset n_slots() const { return list_offset_.back(); }
+    Offset n_rows() const { return row_offset_.back(); }
+    const std::vector<Offset>& list_offset() const { return list_offset_; }  ///< [n_lists + 1]
+    const std::vector<Offset>& row_offset() const { return row_offset_; }    ///< [n_lists + 1]
+
+    int list_of_slot(Offset slot) const { return find(list_offset_, slot); }
+    int list_of_row(Offset row) const { return find(row_offset_, row); }
+    Offset slot_of_row(Offset row) const {
+        const int list = list_of_row(row);
+        return list_offset_[list] + (row - row_offset_[list]);
+    }
+    /// Row of a slot, -1 if it has none.
+    Offset row_of_slot(Offset slot) const {
+        const int list = list_of_slot(slot);
+        const Offset row = row_offset_[list] + (slot - list_offset_[list]);
+        return row < row_offset_[list + 1] ? row : -1;
+    }
+    bool is_stored(Offset slot) const { return row_of_slot(slot) >= 0; }
+
+    friend bool operator==(const SlotLayout&, const SlotLayout&) = default;
+
+private:
+    /// The list k with offsets[k] <= at < offsets[k+1]; empty lists are skipped.
+    static int find(const std::vector<Offset>& offsets, Offset at) {
+        if (offsets.size() == 2) return 0;
+        return static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), at) - offsets.begin()) - 1;
+    }
+
+    std::vector<Offset> list_offset_, row_offset_;
+};
+
+}  // namespace connectivity
