@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# How our own code is compiled: connectivity_flags is linked privately by every target of the
+# project. The instruction set stays the baseline; wider kernels choose theirs file by file.
+
+if(CONNECTIVITY_TOP_LEVEL)
+    if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+        set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+    endif()
+    set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+endif()
+
+add_library(connectivity_flags INTERFACE)
+target_compile_features(connectivity_flags INTERFACE cxx_std_20)
+
+# The predicate is symmetric bit for bit on every path only if no compiler fuses its products.
+target_compile_options(connectivity_flags INTERFACE
+    $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-ffp-contract=off>
+    $<$<COMPILE_LANG_AND_ID:C,GNU,Clang>:-ffp-contract=off>
+    $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wnon-virtual-dtor>
+    $<$<COMPILE_LANG_AND_ID:C,GNU,Clang>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wstrict-prototypes>)
+if(CONNECTIVITY_WERROR)
+    target_compile_options(connectivity_flags INTERFACE -Werror)
+endif()
+
+if(CONNECTIVITY_SANITIZE)
+    # -O1 because stacks stay readable; asserts are on because this is the build that looks.
+    target_compile_options(connectivity_flags INTERFACE -fsanitize=address,undefined
+        -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1 -UNDEBUG)
+    target_link_options(connectivity_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# Options every target of the project shares; a function, because properties do not travel.
+function(connectivity_target target)
+    target_link_libraries(${target} PRIVATE connectivity_flags)
+    set_target_properties(${target} PROPERTIES
+        CXX_EXTENSIONS OFF
+        C_STANDARD 11
+        C_EXTENSIONS OFF
+        POSITION_INDEPENDENT_CODE ON
+        CXX_VISIBILITY_PRESET hidden
+        C_VISIBILITY_PRESET hidden
+        VISIBILITY_INLINES_HIDDEN ON)
+endfunction()

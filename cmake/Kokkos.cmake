@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Provides Kokkos::kokkos. kokkos.sh finds a usable Kokkos or builds one into the user's cache;
+# this file asks it once and remembers the answer in Kokkos_DIR.
+
+if(NOT CONNECTIVITY_KOKKOS MATCHES "^(private|shared)$")
+    message(FATAL_ERROR "CONNECTIVITY_KOKKOS is '${CONNECTIVITY_KOKKOS}': private or shared")
+endif()
+
+# A project that contains this one may have its Kokkos already; then that is the one.
+if(NOT TARGET Kokkos::kokkos)
+    if(NOT CONNECTIVITY_KOKKOS_ANSWER STREQUAL "${CONNECTIVITY_KOKKOS}:${Kokkos_DIR}")
+        set(arguments --cxx "${CMAKE_CXX_COMPILER}" --kind "${CONNECTIVITY_KOKKOS}")
+        if(NOT CONNECTIVITY_FETCH_KOKKOS)
+            list(APPEND arguments --find-only)
+        endif()
+        foreach(hint IN ITEMS CMAKE_PREFIX_PATH CMAKE_TOOLCHAIN_FILE Kokkos_ROOT Kokkos_DIR)
+            if(${hint})
+                list(APPEND arguments "-D${hint}=${${hint}}")
+            endif()
+        endforeach()
+        execute_process(COMMAND sh "${CMAKE_CURRENT_LIST_DIR}/kokkos.sh" ${arguments}
+            OUTPUT_VARIABLE directory OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed)
+        if(failed)
+            message(FATAL_ERROR "no usable Kokkos (the lines above say why). Give one with "
+                "-DKokkos_ROOT=<prefix>, or run: sh ${CMAKE_CURRENT_LIST_DIR}/dependencies.sh")
+        endif()
+        set(Kokkos_DIR "${directory}" CACHE PATH "Where KokkosConfig.cmake is" FORCE)
+        set(CONNECTIVITY_KOKKOS_ANSWER "${CONNECTIVITY_KOKKOS}:${Kokkos_DIR}" CACHE INTERNAL "")
+    endif()
+    find_package(Kokkos REQUIRED CONFIG)
+endif()
+message(STATUS "Kokkos ${Kokkos_VERSION} (${CONNECTIVITY_KOKKOS}; ${Kokkos_DEVICES}): ${Kokkos_DIR}")

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Layers: each folder src/<layer> becomes the object library connectivity_<layer>. Together with
+# capi/ they are libconnectivity.so (only conn_* leaves it) and, for C++, libconnectivity.a.
+
+set(CONNECTIVITY_LAYERS "")
+
+# Kernels for wider instruction sets are files of their own, named for the set they need.
+# Their headers in GCC 12 use "undefined" registers and warn about themselves (GCC bug 105593).
+set(CONNECTIVITY_WIDE_FLAGS -mfma -mbmi -mbmi2 -mpopcnt -Wno-uninitialized -Wno-maybe-uninitialized)
+set(CONNECTIVITY_AVX2_FLAGS -mavx2 ${CONNECTIVITY_WIDE_FLAGS})
+set(CONNECTIVITY_AVX512_FLAGS -mavx512f -mavx512vl -mavx512bw -mavx512dq
+    ${CONNECTIVITY_WIDE_FLAGS})
+
+# Sets the options of the *_avx2.cpp and *_avx512.cpp among the sources, or drops those files
+# where the processor is another; X86 tells whether any is left.
+function(connectivity_wide_kernels sources_var x86_var)
+    set(kept "")
+    set(any OFF)
+    foreach(source IN LISTS ${sources_var})
+        set(flags "")
+        if(source MATCHES "_avx2\\.cpp$")
+            set(flags ${CONNECTIVITY_AVX2_FLAGS})
+        elseif(source MATCHES "_avx512\\.cpp$")
+            set(flags ${CONNECTIVITY_AVX512_FLAGS})
+        endif()
+        if(NOT flags)
+            list(APPEND kept "${source}")
+        elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$")
+            set_source_files_properties("${source}" PROPERTIES
+                COMPILE_OPTIONS "${flags}" SKIP_PRECOMPILE_HEADERS ON)
+            list(APPEND kept "${source}")
+            set(any ON)
+        endif()
+    endforeach()
+    set(${sources_var} "${kept}" PARENT_SCOPE)
+    set(${x86_var} ${any} PARENT_SCOPE)
+endfunction()
+
+# Adds the layer if src/<layer> has sources. A layer that is headers only needs no library.
+function(connectivity_layer layer)
+    file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${layer}/*.cpp")
+    if(NOT sources)
+        return()
+    endif()
+    connectivity_wide_kernels(sources has_x86_kernels)
+    set(target connectivity_${layer})
+    add_library(${target} OBJECT ${sources})
+    connectivity_target(${target})
+    target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}/include"
+                               PRIVATE "${PROJECT_SOURCE_DIR}/src")
+    target_link_libraries(${target} PUBLIC Kokkos::kokkos Eigen3::Eigen)
+    target_compile_definitions(${target} PRIVATE CONNECTIVITY_VERSION="${PROJECT_VERSION}")
+    if(has_x86_kernels)
+        target_compile_definitions(${target} PRIVATE CONNECTIVITY_X86_KERNELS=1)
+    endif()
+    set(CONNECTIVITY_LAYERS ${CONNECTIVITY_LAYERS} ${target} PARENT_SCOPE)
+endfunction()
+
+# The shared library exports the C functions of capi/ and nothing else. It is never unloaded
+# (nodelete): Kokkos and OpenMP keep threads that would run in unmapped code.
+function(connectivity_shared_library objects)
+    file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/capi/*.cpp")
+    if(NOT sources)
+        return()
+    endif()
+    set(map "${PROJECT_SOURCE_DIR}/capi/connectivity.map")
+    add_library(connectivity SHARED ${sources} ${objects})
+    connectivity_target(connectivity)
+    target_include_directories(connectivity PUBLIC "${PROJECT_SOURCE_DIR}/capi"
+        PRIVATE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
+    target_link_libraries(connectivity PRIVATE Kokkos::kokkos Eigen3::Eigen)
+    target_compile_definitions(connectivity PRIVATE CONNECTIVITY_VERSION="${PROJECT_VERSION}")
+    target_link_options(connectivity PRIVATE "LINKER:--version-script=${map}"
+        LINKER:-z,nodelete LINKER:-z,defs LINKER:-Bsymbolic-functions)
+    set_target_properties(connectivity PROPERTIES VERSION ${PROJECT_VERSION}
+        SOVERSION ${PROJECT_VERSION_MAJOR} LINK_DEPENDS "${map}"
+        LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+endfunction()
+
+# Makes libconnectivity.so and libconnectivity.a of the layers added so far.
+function(connectivity_libraries)
+    if(NOT CONNECTIVITY_LAYERS)
+        return()
+    endif()
+    set(objects "")
+    foreach(layer IN LISTS CONNECTIVITY_LAYERS)
+        list(APPEND objects $<TARGET_OBJECTS:${layer}>)
+    endforeach()
+    connectivity_shared_library("${objects}")
+    add_library(connectivity_static STATIC ${objects})
+    set_target_properties(connectivity_static PROPERTIES OUTPUT_NAME connectivity
+        LINKER_LANGUAGE CXX ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+    target_include_directories(connectivity_static PUBLIC "${PROJECT_SOURCE_DIR}/include")
+    target_compile_features(connectivity_static PUBLIC cxx_std_20)
+    target_link_libraries(connectivity_static PUBLIC Kokkos::kokkos Eigen3::Eigen)
+    if(CONNECTIVITY_SANITIZE)
+        target_link_options(connectivity_static PUBLIC -fsanitize=address,undefined)
+    endif()
+endfunction()

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Tests mirror the layers: the *_test.cpp of tests/<folder> become the executable test_<folder>.
+# A folder with a CMakeLists.txt of its own says itself what it builds.
+
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+# What tests share: point clouds, brute force, reference data.
+file(GLOB support CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/support/*.cpp")
+if(support)
+    add_library(connectivity_test_support STATIC ${support})
+    connectivity_target(connectivity_test_support)
+    target_include_directories(connectivity_test_support PUBLIC "${PROJECT_SOURCE_DIR}/tests")
+    target_link_libraries(connectivity_test_support PUBLIC connectivity_static GTest::gtest)
+endif()
+
+set(CONNECTIVITY_TEST_ENVIRONMENT OMP_PROC_BIND=false)
+if(CONNECTIVITY_SANITIZE)
+    list(APPEND CONNECTIVITY_TEST_ENVIRONMENT
+        "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0"
+        UBSAN_OPTIONS=print_stacktrace=1)
+endif()
+
+# connectivity_test(<folder> LABEL <label>): one executable from the folder's *_test.cpp.
+function(connectivity_test folder)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL" "")
+    file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp")
+    if(NOT sources OR NOT TARGET connectivity_static)
+        return()
+    endif()
+    set(target test_${folder})
+    add_executable(${target} ${sources})
+    connectivity_target(${target})
+    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests"
+        "${PROJECT_SOURCE_DIR}/src" "${PROJECT_SOURCE_DIR}/capi")
+    target_compile_definitions(${target} PRIVATE
+        CONNECTIVITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    if(folder MATCHES "^(io|program)$")
+        target_link_libraries(${target} PRIVATE connectivity_app)
+    endif()
+    if(folder STREQUAL capi)
+        target_link_libraries(${target} PRIVATE connectivity)
+    endif()
+    target_link_libraries(${target} PRIVATE
+        $<TARGET_NAME_IF_EXISTS:connectivity_test_support> connectivity_static GTest::gtest_main)
+    gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${folder}/"
+        PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600 ENVIRONMENT "${CONNECTIVITY_TEST_ENVIRONMENT}")
+endfunction()
+
+file(GLOB folders LIST_DIRECTORIES true CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/*")
+foreach(path IN LISTS folders)
+    cmake_path(GET path FILENAME folder)
+    if(NOT IS_DIRECTORY "${path}" OR folder STREQUAL support)
+        continue()
+    endif()
+    set(label unit)
+    if(folder MATCHES "^(stability|capi|package|mpi)$")
+        set(label ${folder})
+    endif()
+    if(EXISTS "${path}/CMakeLists.txt")
+        add_subdirectory("${path}" "${PROJECT_BINARY_DIR}/tests/${folder}")
+    elseif(NOT folder MATCHES "^(io|program)$" OR TARGET connectivity_app)
+        connectivity_test(${folder} LABEL ${label})
+    endif()
+endforeach()
