@@ -3,6 +3,7 @@
 # capi/ they are libconnectivity.so (only conn_* leaves it) and, for C++, libconnectivity.a.
 
 set(CONNECTIVITY_LAYERS "")
+set(CONNECTIVITY_WIDE_LAYERS "")
 
 # Kernels for wider instruction sets are files of their own, named for the set they need.
 # Their headers in GCC 12 use "undefined" registers and warn about themselves (GCC bug 105593).
@@ -52,6 +53,7 @@ function(connectivity_layer layer)
     target_compile_definitions(${target} PRIVATE CONNECTIVITY_VERSION="${PROJECT_VERSION}")
     if(has_x86_kernels)
         target_compile_definitions(${target} PRIVATE CONNECTIVITY_X86_KERNELS=1)
+        set(CONNECTIVITY_WIDE_LAYERS ${CONNECTIVITY_WIDE_LAYERS} ${target} PARENT_SCOPE)
     endif()
     set(CONNECTIVITY_LAYERS ${CONNECTIVITY_LAYERS} ${target} PARENT_SCOPE)
 endfunction()
