@@ -50,7 +50,7 @@ inline void kokkos_initialize(int n_threads, int device_id) {
 using ThreadPool = void*;
 
 inline ThreadPool pool_of_this_thread() {
-#if defined(KOKKOS_ENABLE_OPENMP) && KOKKOS_VERSION < 30600
+#if defined(KOKKOS_ENABLE_OPENMP) && KOKKOS_VERSION < 30700
     return Kokkos::Impl::t_openmp_instance;
 #else
     return nullptr;
@@ -60,7 +60,7 @@ inline ThreadPool pool_of_this_thread() {
 /// Lets the calling thread launch kernels on the pool. Kernels of different threads must not
 /// overlap.
 inline void adopt_thread([[maybe_unused]] ThreadPool pool) {
-#if defined(KOKKOS_ENABLE_OPENMP) && KOKKOS_VERSION < 30600
+#if defined(KOKKOS_ENABLE_OPENMP) && KOKKOS_VERSION < 30700
     if (Kokkos::Impl::t_openmp_instance == nullptr)
         Kokkos::Impl::t_openmp_instance = static_cast<Kokkos::Impl::OpenMPExec*>(pool);
 #endif
