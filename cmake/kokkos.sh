@@ -54,8 +54,7 @@ probe() {
         -DKIND="$kind" "$@" > "$work/probe.log" 2>&1; then
         cat "$work/probe/answer"
     else
-        sed -n '/^CMake Error/,/^$/{/^CMake Error/d;/^$/d;s/^ */-- kokkos:     /p;}' \
-            "$work/probe.log" >&2
+        sed -n 's/^CMake Error: /-- kokkos:     /p; s/^  */-- kokkos:     /p' "$work/probe.log" >&2
         return 1
     fi
 }
@@ -82,8 +81,9 @@ if(code)
     message(FATAL_ERROR "${text}")
 endif()
 END
+    log=$work/download.log
     cmake -DURL="$release_url" -DFILE="$work/release.tar.gz" -P "$work/download.cmake" \
-        > "$work/download.log" 2>&1 &&
+        > "$log" 2>&1 &&
         mkdir "$work/source" &&
         tar -xzf "$work/release.tar.gz" -C "$work/source" --strip-components=1
 }
@@ -95,10 +95,11 @@ from_sdist() {
     say "source 2: the source distribution $sdist $sdist_version, which carries Kokkos 3.4.01"
     mkdir "$work/sdist" "$work/standin"
     echo 'from setuptools import setup' > "$work/standin/skbuild.py"
-    set -- download --quiet --no-deps --no-binary :all: --dest "$work/sdist" \
-        "$sdist==$sdist_version"
-    PYTHONPATH=$work/standin python3 -m pip "$@" --no-build-isolation > "$work/pip.log" 2>&1 ||
-        python3 -m pip "$@" > "$work/pip.log" 2>&1 || return 1
+    set -- download --quiet --retries 1 --timeout 20 --no-deps --no-binary :all: \
+        --dest "$work/sdist" "$sdist==$sdist_version"
+    log=$work/pip.log
+    PYTHONPATH=$work/standin python3 -m pip "$@" --no-build-isolation > "$log" 2>&1 ||
+        python3 -m pip "$@" >> "$log" 2>&1 || return 1
     archive=$work/sdist/$sdist-$sdist_version.tar.gz
     echo "$sdist_sha256  $archive" | sha256sum --check --quiet >&2 || return 1
     mkdir "$work/source"
@@ -114,15 +115,17 @@ from_trilinos() {
     mkdir -p "$apt/sources" "$apt/lists/partial" "$apt/cache/archives/partial" "$apt/download"
     for list in /etc/apt/sources.list /etc/apt/sources.list.d/*; do
         [ -f "$list" ] || continue
+        private=$apt/sources/$(basename "$list")
         case $list in
-        *.list) sed -n 's/^deb[[:space:]]/deb-src /p' "$list" ;;
-        *.sources) sed 's/^Types:.*/Types: deb-src/' "$list" ;;
-        esac > "$apt/sources/$(basename "$list")"
+        *.list) sed -n 's/^deb[[:space:]]/deb-src /p' "$list" > "$private" ;;
+        *.sources) sed 's/^Types:.*/Types: deb-src/' "$list" > "$private" ;;
+        esac
     done
     set -- -o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$apt/sources" \
         -o Dir::State::Lists="$apt/lists" -o Dir::Cache="$apt/cache" -o APT::Sandbox::User=
-    apt-get "$@" update > "$work/apt.log" 2>&1 || true # one dead list is no reason to stop
-    (cd "$apt/download" && apt-get "$@" source --download-only trilinos) >> "$work/apt.log" 2>&1 ||
+    log=$work/apt.log
+    apt-get "$@" update > "$log" 2>&1 || true # one dead list is no reason to stop
+    (cd "$apt/download" && apt-get "$@" source --download-only trilinos) >> "$log" 2>&1 ||
         return 1
     mkdir "$work/source"
     tar -xf "$apt"/download/trilinos_*.orig.tar.* -C "$work/source" --strip-components=3 \
@@ -139,20 +142,24 @@ version_of_source() {
 build() {
     prefix=$cache/kokkos-$(version_of_source)-$compiler-$backends
     [ "$kind" = shared ] && shared=ON || shared=OFF
-    say "building $(basename "$prefix") (log: $work/build.log)"
+    log=$work/build.log
+    say "building $(basename "$prefix")"
     cmake -S "$work/source" -B "$work/build" -DCMAKE_BUILD_TYPE=Release \
         -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_CXX_STANDARD=17 -DCMAKE_CXX_EXTENSIONS=OFF \
         -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DBUILD_SHARED_LIBS=$shared \
         -DKokkos_ENABLE_SERIAL=ON -DKokkos_ENABLE_OPENMP=ON -DKokkos_ENABLE_TESTS=OFF \
         -DKokkos_ENABLE_DEPRECATED_CODE_3=OFF -DKokkos_ENABLE_DEPRECATED_CODE_4=OFF \
-        -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_INSTALL_PREFIX="$prefix" > "$work/build.log" 2>&1 &&
-        cmake --build "$work/build" -j "$(nproc)" >> "$work/build.log" 2>&1 &&
-        DESTDIR=$work/stage cmake --install "$work/build" >> "$work/build.log" 2>&1 || {
-        tail -n 20 "$work/build.log" >&2
-        return 1
-    }
+        -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_INSTALL_PREFIX="$prefix" > "$log" 2>&1 &&
+        cmake --build "$work/build" -j "$(nproc)" >> "$log" 2>&1 &&
+        DESTDIR=$work/stage cmake --install "$work/build" >> "$log" 2>&1 || return 1
     [ -d "$prefix" ] || mv "$work/stage$prefix" "$prefix"
 }
+
+# Debian's cmake brings no make.
+if command -v ninja > /dev/null; then
+    CMAKE_GENERATOR=Ninja
+    export CMAKE_GENERATOR
+fi
 
 say "is one installed that we can use?"
 if probe "$@"; then exit 0; fi
@@ -167,11 +174,13 @@ fi
 say "no: taking its source and building it; this happens once"
 for source in from_release from_sdist from_trilinos; do
     rm -rf "$work/source" "$work/build" "$work/stage"
+    log=/dev/null
     if "$source" && build; then
         find_cached
         exit 0
     fi
-    say "    that failed"
+    say "    that failed; the end of its log:"
+    tail -n 8 "$log" >&2
 done
 say "no source of Kokkos could be reached"
 exit 1
