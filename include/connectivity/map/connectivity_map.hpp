@@ -28,6 +28,7 @@ struct MapOptions {
     bool ghost_rows = false;  ///< rows for ghosts too, and pairs between ghosts
     SearchMode mode = SearchMode::gather_scatter;  ///< pairs exist only for gather_scatter
     SearchMethod method = SearchMethod::automatic;
+    bool spatial_order = false;  ///< keep spatial_order() available (free where the search sorts nodes anyway)
     Domain domain;  ///< open on all axes unless told
     Budget budget;
 };
@@ -47,6 +48,7 @@ public:
     Generation generation() const { return generation_; }  ///< 0 before the first rebuild
     const SlotLayout& layout() const { return layout_; }
     const std::vector<std::string>& list_names() const { return list_names_; }
+    const std::vector<Offset>& n_internal() const { return n_internal_; }  ///< [n_lists]
     int dim() const { return dim_; }
     const MapOptions& options() const { return options_; }
 
@@ -56,26 +58,32 @@ public:
     const NodePairList& pairs() const;
     NodePairList& pairs();
 
-    /// Slots in an order that keeps neighbours close in memory, [n_slots]: the order of the last search. A host that
-    /// reorders its nodes by it (per list, see `spatial_order(list)`) makes its own loops and later builds faster.
-    /// Throws Error{not_built} before the first rebuild.
+    /// Slots in an order that keeps neighbours close in memory, [n_slots]: a permutation. A host that reorders its nodes
+    /// by it (list by list, see below) makes its own loops and later builds faster.
+    /// Throws Error{not_built} unless MapOptions::spatial_order was set.
     ConstView<Slot> spatial_order() const;
 
     /// The same for one list: node ids, internal ones first, then ghosts; a permutation of [0, n).
+    /// Throws Error{not_built}, Error{argument} for a list that is none.
     View<Slot> spatial_order(int list) const;
 
     const Report& report() const { return report_; }
 
 private:
+    template <int Dim>
+    void rebuild_in(std::span<const NodeList> lists, const MapOptions& options);
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
     Generation generation_ = 0;
     SlotLayout layout_;
     std::vector<std::string> list_names_;
+    std::vector<Offset> n_internal_;
     int dim_ = 0;
     MapOptions options_;
     Csr rows_{"map/rows"};
     NodePairList pairs_;
+    ConstView<Slot> order_;
     Report report_;
 };
 

@@ -48,8 +48,8 @@ public:
     void run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request, Csr& rows,
              Csr& half_rows, Report& report);
 
-    /// Slots in an order that keeps neighbours close in memory, [n]; found on first call for these nodes.
-    ConstView<Slot> spatial_order(const SearchNodes<Dim>& nodes);
+    /// Slots in an order that keeps neighbours close in memory, [n]; the order of the last run, where it sorted.
+    View<Slot> spatial_order(const SearchNodes<Dim>& nodes, const SlotLayout& layout);
 
     /// Bytes of order and scratch memory held.
     Offset bytes() const;

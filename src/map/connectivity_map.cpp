@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <connectivity/map/connectivity_map.hpp>
+
+#include <tuple>
+
+#include <connectivity/base/runtime.hpp>
+
+#include "prepare.hpp"
+
+namespace connectivity {
+
+/// What survives from build to build: joined inputs and one searcher for each dimension in use.
+struct ConnectivityMap::Impl {
+    PreparedStorage storage;
+    std::tuple<Search<1>, Search<2>, Search<3>> searches;
+
+    template <int Dim>
+    Search<Dim>& search() {
+        return std::get<Dim - 1>(searches);
+    }
+};
+
+ConnectivityMap::ConnectivityMap() : impl_(std::make_unique<Impl>()) {}
+ConnectivityMap::~ConnectivityMap() = default;
+ConnectivityMap::ConnectivityMap(ConnectivityMap&&) noexcept = default;
+ConnectivityMap& ConnectivityMap::operator=(ConnectivityMap&&) noexcept = default;
+
+namespace {
+
+void check_request(std::span<const NodeList> lists, const MapOptions& options) {
+    if (lists.empty()) throw Error(Status::argument, "rebuild: 0 node lists, must be at least 1");
+    Offset n = 0;
+    for (std::size_t l = 0; l < lists.size(); ++l) {
+        if (lists[l].dim() != lists[0].dim())
+            throw Error(Status::argument, "rebuild: node list " + std::to_string(l) + " (\"" + lists[l].name() +
+                                              "\") has dim = " + std::to_string(lists[l].dim()) +
+                                              ", the first list has " + std::to_string(lists[0].dim()));
+        n += lists[l].n();
+    }
+    if (n > max_slots)
+        throw Error(Status::too_many,
+                    "rebuild: " + std::to_string(n) + " nodes, must be at most " + std::to_string(max_slots));
+    if (options.pairs && options.mode != SearchMode::gather_scatter)
+        throw Error(Status::argument, "rebuild: pairs exist only for gather_scatter; ask for rows alone");
+    if (options.budget.bytes < 0)
+        throw Error(Status::argument,
+                    "rebuild: budget of " + std::to_string(options.budget.bytes) + " bytes, must be >= 0");
+    options.domain.check(lists[0].dim());
+}
+
+SlotLayout layout_of(std::span<const NodeList> lists, bool ghost_rows) {
+    std::vector<ListSize> sizes;
+    for (const NodeList& list : lists) sizes.push_back({list.n(), list.n_internal()});
+    return SlotLayout(sizes, ghost_rows);
+}
+
+}  // namespace
+
+void ConnectivityMap::rebuild(std::span<const NodeList> lists, const MapOptions& options) {
+    start_runtime();
+    check_request(lists, options);
+    switch (lists[0].dim()) {
+        case 1: return rebuild_in<1>(lists, options);
+        case 2: return rebuild_in<2>(lists, options);
+        default: return rebuild_in<3>(lists, options);
+    }
+}
+
+template <int Dim>
+void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptions& options) {
+    Kokkos::Profiling::pushRegion("map/rebuild");
+    struct Pop {
+        ~Pop() { Kokkos::Profiling::popRegion(); }
+    } pop_region;
+
+    Report report;
+    SlotLayout layout = layout_of(lists, options.ghost_rows);
+    std::vector<std::string> names;
+    std::vector<Offset> n_internal;
+    for (const NodeList& list : lists) names.push_back(list.name()), n_internal.push_back(list.n_internal());
+
+    const Stopwatch preparing;
+    const SearchNodes<Dim> nodes = prepare_nodes<Dim>(lists, options.domain, impl_->storage);
+    auto& prepared = report.entry("nodes");
+    prepared = {"nodes", "search", lists.size() == 1 ? "checked where they lie" : "checked and laid end to end", true,
+                false, impl_->storage.bytes(), preparing.ms()};
+
+    const SearchRequest request{options.rows, options.pairs, options.mode, options.method, options.budget};
+    auto& search = impl_->search<Dim>();
+    ConstView<Slot> order;
+    if (options.spatial_order) order = search.spatial_order(nodes, layout);
+    search.run(nodes, layout, request, rows_, pairs_.half_rows_, report);
+
+    // Nothing below can fail: this is where the new lists become the map's.
+    layout_ = std::move(layout);
+    list_names_.swap(names);
+    n_internal_.swap(n_internal);
+    dim_ = Dim;
+    options_ = options;
+    order_ = order;
+    std::swap(report_, report);
+    pairs_.generation_ = ++generation_;
+}
+
+RowsView<> ConnectivityMap::rows() const {
+    if (generation_ == 0 || !options_.rows)
+        throw Error(Status::not_built, "rows: the last rebuild was not asked for them");
+    return {rows_.offsets(), rows_.values(), layout_.n_lists(), generation_};
+}
+
+const NodePairList& ConnectivityMap::pairs() const {
+    if (generation_ == 0 || !options_.pairs)
+        throw Error(Status::not_built, "pairs: the last rebuild was not asked for them");
+    return pairs_;
+}
+
+NodePairList& ConnectivityMap::pairs() { return const_cast<NodePairList&>(std::as_const(*this).pairs()); }
+
+ConstView<Slot> ConnectivityMap::spatial_order() const {
+    if (generation_ == 0 || !options_.spatial_order)
+        throw Error(Status::not_built, "spatial_order: the last rebuild was not asked for it");
+    return order_;
+}
+
+View<Slot> ConnectivityMap::spatial_order(int list) const {
+    const ConstView<Slot> all = spatial_order();
+    if (list < 0 || list >= layout_.n_lists())
+        throw Error(Status::argument, "spatial_order: list " + std::to_string(list) + ", must be in [0, " +
+                                          std::to_string(layout_.n_lists()) + ")");
+    const Offset first = layout_.list_offset()[list], last = layout_.list_offset()[list + 1];
+    auto ids = allocate<Slot>("map/spatial_order", last - first);
+    // Internal nodes keep the front of the list: two passes in the common order.
+    const Offset n_internal = n_internal_[list];
+    Offset internal = 0, ghost = n_internal;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (all(k) >= first && all(k) < last) {
+            const Offset id = all(k) - first;
+            ids(id < n_internal ? internal++ : ghost++) = static_cast<Slot>(id);
+        }
+    return ids;
+}
+
+}  // namespace connectivity

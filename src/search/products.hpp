@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// How counted rows become lists: offsets, budget, storage, fill. Every search method ends here.
+///
+/// Invariant: everything that can fail happens in `prepare`, before the first value of an old list is overwritten.
+
+#include <connectivity/base/budget.hpp>
+#include <connectivity/base/csr.hpp>
+#include <connectivity/search/layout.hpp>
+#include <connectivity/search/search.hpp>
+
+namespace connectivity::detail {
+
+/// What a search counted: entries by row and target list, and partners after each slot.
+struct Counts {
+    const Slot* rows = nullptr;    ///< [n_rows * n_lists]; nullptr if rows are not asked for
+    const Slot* halves = nullptr;  ///< [n_slots]; nullptr if half rows are not asked for
+};
+
+/// The two lists that a search fills.
+struct Products {
+    Csr& rows;
+    Csr& halves;
+
+    /// Offsets, budget check, storage. Throws Error{budget | memory}; the lists are as before.
+    void prepare(const Counts& counts, const SlotLayout& layout, const Budget& budget);
+};
+
+/// Throws Error{budget}: bytes needed and allowed, number of entries, and the node with most neighbours.
+[[noreturn]] void throw_over_budget(const Counts& counts, const SlotLayout& layout, Offset needed, Offset allowed);
+
+}  // namespace connectivity::detail
