@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// Writer of the result of `connectivity pairs`: rows, pairs, and what was computed from them, in HDF5.
+/// Writer of the result of `connectivity pairs`: rows, pairs, and what was computed from them, in
+/// HDF5.
 ///
 ///     /rows/offsets [n_rows*n_lists+1] int64, /rows/slots int32
 ///     /pairs/i, /pairs/j [n_pairs] int32, i < j, sorted by (i, j)
 ///     /density/<list> [n] float64, attr units
-///     attrs: list_offset, row_offset [n_lists+1], list_names, n_internal [n_lists], generation, command,
+///     attrs: list_offset, row_offset [n_lists+1], list_names, n_internal [n_lists], generation,
+///     command,
 ///            library_version
 
 #include <memory>
@@ -17,17 +19,20 @@ namespace connectivity {
 
 class ResultFile {
 public:
-    /// Opens a temporary file beside `path` at once, so that a bad place is found before the work and not after.
-    /// Throws Error{file}.
+    /// Opens a temporary file beside `path` at once, so that a bad place is found before the work
+    /// and not after. Throws Error{file}.
     explicit ResultFile(const std::string& path);
-    ~ResultFile();  ///< removes what was not committed
+    ~ResultFile(); ///< removes what was not committed
 
-    /// Rows, pairs and attributes. n_internal of each list is taken from `lists`. Pairs are written in pieces: the i
-    /// array is never held whole. Throws Error: file (the disk is full, say), not_built.
-    void write(const ConnectivityMap& map, std::span<const NodeList> lists, const std::string& command);
+    /// Rows, pairs and attributes. n_internal of each list is taken from `lists`. Pairs are written
+    /// in pieces: the i array is never held whole. Throws Error: file (the disk is full, say),
+    /// not_built.
+    void write(const ConnectivityMap& map, std::span<const NodeList> lists,
+               const std::string& command);
 
     /// Density of the nodes of one list. Throws Error{file}.
-    void write_density(const std::string& list, ConstView<double> density, const std::string& units);
+    void write_density(const std::string& list, ConstView<double> density,
+                       const std::string& units);
 
     /// Closes the file and puts it in its place. Throws Error{file}.
     void commit();
@@ -37,4 +42,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-}  // namespace connectivity
+} // namespace connectivity
