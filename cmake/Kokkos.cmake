@@ -8,14 +8,16 @@ endif()
 
 # A project that contains this one may have its Kokkos already; then that is the one.
 if(NOT TARGET Kokkos::kokkos)
-    if(NOT CONNECTIVITY_KOKKOS_ANSWER STREQUAL "${CONNECTIVITY_KOKKOS}:${Kokkos_DIR}")
+    if(NOT CONNECTIVITY_KOKKOS_ANSWER STREQUAL "${CONNECTIVITY_KOKKOS}:${Kokkos_DIR}"
+       OR NOT EXISTS "${Kokkos_DIR}/KokkosConfig.cmake")
         set(arguments --cxx "${CMAKE_CXX_COMPILER}" --kind "${CONNECTIVITY_KOKKOS}")
         if(NOT CONNECTIVITY_FETCH_KOKKOS)
             list(APPEND arguments --find-only)
         endif()
         foreach(hint IN ITEMS CMAKE_PREFIX_PATH CMAKE_TOOLCHAIN_FILE Kokkos_ROOT Kokkos_DIR)
             if(${hint})
-                list(APPEND arguments "-D${hint}=${${hint}}")
+                string(REPLACE ";" "\\;" value "${${hint}}")
+                list(APPEND arguments "-D${hint}=${value}")
             endif()
         endforeach()
         execute_process(COMMAND sh "${CMAKE_CURRENT_LIST_DIR}/kokkos.sh" ${arguments}
