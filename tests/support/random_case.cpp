@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <support/random.hpp>
 
@@ -152,17 +153,15 @@ int random_size(Random& random, const CaseKind& kind) {
 }
 
 std::string describe(const Case& c, std::uint64_t seed, const CaseKind& kind, const Scene& s) {
-    std::string text = "seed " + std::to_string(seed) + ", dim " + std::to_string(kind.dim) +
-                       (kind.periodic ? ", periodic" : ", open") + ", sizes " +
-                       std::to_string(kind.min_nodes) + ".." + std::to_string(kind.max_nodes) +
-                       ": place " + std::to_string(static_cast<int>(s.place)) + ", offset " +
-                       std::to_string(s.offset[0]) + ", mode " +
-                       std::to_string(static_cast<int>(c.mode)) + ", ghost rows " +
-                       std::to_string(c.ghost_rows) + ", lists";
+    std::ostringstream text;
+    text << "seed " << seed << ", dim " << kind.dim << (kind.periodic ? ", periodic" : ", open")
+         << ", sizes " << kind.min_nodes << ".." << kind.max_nodes << ": place "
+         << static_cast<int>(s.place) << ", offset " << s.offset[0] << ", mode "
+         << static_cast<int>(c.mode) << ", ghost rows " << c.ghost_rows << ", lists";
     for (std::size_t k = 0; k < c.lists.size(); ++k)
-        text += " " + std::to_string(c.lists[k].n_internal) + "+" +
-                std::to_string(c.n(k) - c.lists[k].n_internal) + (c.lists[k].tensor ? " H" : " h");
-    return text;
+        text << " " << c.lists[k].n_internal << "+" << c.n(k) - c.lists[k].n_internal
+             << (c.lists[k].tensor ? " H" : " h");
+    return text.str();
 }
 
 } // namespace
@@ -203,7 +202,7 @@ Case random_case(std::uint64_t seed, const CaseKind& kind) {
     const double extent = random.pick({1.0, 2.0, 2.0, 3.0, 0.75});
     c.lists.resize(static_cast<std::size_t>(n_lists));
     for (ListData& list : c.lists) {
-        list.name = "list" + std::to_string(&list - c.lists.data());
+        list.name = std::string(1, static_cast<char>('A' + (&list - c.lists.data())));
         list.extent = unequal ? random.pick({0.5, 1.0, 2.5, 4.0}) : extent;
     }
     const double K = c.kernel_extent();
