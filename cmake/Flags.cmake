@@ -13,11 +13,11 @@ add_library(connectivity_flags INTERFACE)
 target_compile_features(connectivity_flags INTERFACE cxx_std_20)
 
 # The predicate is symmetric bit for bit on every path only if no compiler fuses its products.
+set(options -ffp-contract=off
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 target_compile_options(connectivity_flags INTERFACE
-    $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-ffp-contract=off>
-    $<$<COMPILE_LANG_AND_ID:C,GNU,Clang>:-ffp-contract=off>
-    $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wnon-virtual-dtor>
-    $<$<COMPILE_LANG_AND_ID:C,GNU,Clang>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wstrict-prototypes>)
+    "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:${options};-Wnon-virtual-dtor>"
+    "$<$<COMPILE_LANG_AND_ID:C,GNU,Clang>:${options};-Wstrict-prototypes>")
 if(CONNECTIVITY_WERROR)
     target_compile_options(connectivity_flags INTERFACE -Werror)
 endif()

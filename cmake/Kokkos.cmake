@@ -31,4 +31,5 @@ if(NOT TARGET Kokkos::kokkos)
     endif()
     find_package(Kokkos REQUIRED CONFIG)
 endif()
-message(STATUS "Kokkos ${Kokkos_VERSION} (${CONNECTIVITY_KOKKOS}; ${Kokkos_DEVICES}): ${Kokkos_DIR}")
+message(STATUS
+    "Kokkos ${Kokkos_VERSION} (${CONNECTIVITY_KOKKOS}; ${Kokkos_DEVICES}): ${Kokkos_DIR}")

@@ -22,7 +22,8 @@ set_target_properties(connectivity_app PROPERTIES LINKER_LANGUAGE CXX)
 target_include_directories(connectivity_app PUBLIC "${PROJECT_SOURCE_DIR}/src")
 target_link_libraries(connectivity_app PUBLIC connectivity_static hdf5::hdf5 fmt::fmt CLI11::CLI11)
 
-add_executable(connectivity_command $<FILTER:$<TARGET_OBJECTS:connectivity_program>,INCLUDE,/main\\.cpp\\.o$>)
+add_executable(connectivity_command
+    $<FILTER:$<TARGET_OBJECTS:connectivity_program>,INCLUDE,/main\\.cpp\\.o$>)
 set_target_properties(connectivity_command PROPERTIES OUTPUT_NAME connectivity LINKER_LANGUAGE CXX
     RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
 target_link_libraries(connectivity_command PRIVATE connectivity_app connectivity_flags)

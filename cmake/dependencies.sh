@@ -56,7 +56,8 @@ if command -v apt-get > /dev/null; then
         say "all packages are installed"
     fi
     # Distributions that package Kokkos itself, newer than the one inside trilinos.
-    candidate=$(LC_ALL=C apt-cache policy libkokkos-dev 2> /dev/null | sed -n 's/^ *Candidate: *//p')
+    candidate=$(LC_ALL=C apt-cache policy libkokkos-dev 2> /dev/null |
+        sed -n 's/^ *Candidate: *//p')
     if [ -n "$candidate" ] && [ "$candidate" != "(none)" ] && ! is_installed libkokkos-dev; then
         say "installing the distribution's Kokkos $candidate"
         missing=" libkokkos-dev"

@@ -4,8 +4,10 @@
 
 The linker keeps one copy of a weak symbol (inline function, template) and drops the others. If an
 object compiled for AVX defines one, that copy may serve the whole program and stop it on an older
-processor. So these objects may define strong symbols only. Arguments: nm, then objects.
+processor. So these objects may define strong symbols only, or weak ones whose name says the
+instruction set, which nobody else defines. Arguments: nm, then objects.
 """
+import re
 import subprocess
 import sys
 
@@ -16,7 +18,7 @@ def weak_symbols(nm: str, path: str):
     ).stdout
     for line in listing.splitlines():
         _, kind, name = line.split(maxsplit=2)
-        if kind in "VvWwu":
+        if kind in "VvWwu" and not re.search(r"avx(2|512)", name, re.IGNORECASE):
             yield name
 
 
