@@ -62,10 +62,10 @@ endfunction()
 # (nodelete): Kokkos and OpenMP keep threads that would run in unmapped code.
 function(connectivity_shared_library objects)
     file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/capi/*.cpp")
-    if(NOT sources)
+    file(GLOB map CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/capi/connectivity.map")
+    if(NOT sources OR NOT map)
         return()
     endif()
-    set(map "${PROJECT_SOURCE_DIR}/capi/connectivity.map")
     add_library(connectivity SHARED ${sources} ${objects})
     connectivity_target(connectivity)
     target_include_directories(connectivity PUBLIC "${PROJECT_SOURCE_DIR}/capi"
