@@ -69,7 +69,7 @@ function(connectivity_shared_library objects)
     add_library(connectivity SHARED ${sources} ${objects})
     connectivity_target(connectivity)
     target_include_directories(connectivity PUBLIC "${PROJECT_SOURCE_DIR}/capi"
-        PRIVATE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
+        "${PROJECT_SOURCE_DIR}/include" PRIVATE "${PROJECT_SOURCE_DIR}/src")
     target_link_libraries(connectivity PRIVATE Kokkos::kokkos Eigen3::Eigen)
     target_compile_definitions(connectivity PRIVATE CONNECTIVITY_VERSION="${PROJECT_VERSION}")
     target_link_options(connectivity PRIVATE "LINKER:--version-script=${map}"

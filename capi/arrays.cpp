@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "arrays.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace connectivity::capi {
+
+namespace {
+
+[[noreturn]] void refuse(Status status, const std::string& what, std::int64_t value,
+                         const std::string& allowed) {
+    throw Error(status, what + " = " + std::to_string(value) + ", must be " + allowed);
+}
+
+std::size_t element_size(std::int32_t dtype) {
+    return dtype == CONN_FLOAT32 ? sizeof(float) : sizeof(double);
+}
+
+void check_kind(const conn_array& a, const std::string& name) {
+    if (a.space == CONN_SPACE_DEVICE || a.space == CONN_SPACE_MANAGED)
+        throw Error(Status::unsupported,
+                    name +
+                        ".space is device memory, which this build does not read; give host "
+                        "memory");
+    if (a.space != CONN_SPACE_HOST && a.space != CONN_SPACE_HOST_PINNED)
+        refuse(Status::argument, name + ".space", a.space, "one of CONN_SPACE_*");
+    if (a.dtype != CONN_FLOAT64 && a.dtype != CONN_FLOAT32)
+        refuse(Status::argument, name + ".dtype", a.dtype, "CONN_FLOAT64 or CONN_FLOAT32");
+    if (a.ndim != 1 && a.ndim != 2) refuse(Status::argument, name + ".ndim", a.ndim, "1 or 2");
+}
+
+// The last element must be addressable: |stride| * (extent - 1) elements fit half the address
+// space.
+void check_reach(Offset extent, Offset stride, const std::string& name) {
+    const Offset limit = std::numeric_limits<Offset>::max() / 32;
+    if (extent > 1 && (stride > limit / extent || stride < -(limit / extent)))
+        refuse(Status::argument, name, stride, "small enough to address all elements");
+}
+
+void check_array(const conn_array& a, int n_components, const std::string& name) {
+    check_kind(a, name);
+    if (a.extent[0] < 0) refuse(Status::argument, name + ".extent[0]", a.extent[0], ">= 0");
+    if (a.extent[0] > max_slots)
+        refuse(Status::too_many, name + ".extent[0]", a.extent[0],
+               "at most " + std::to_string(max_slots));
+    const Offset components = a.ndim == 2 ? a.extent[1] : 1;
+    if (components != n_components)
+        refuse(Status::argument, name + (a.ndim == 2 ? ".extent[1]" : ".ndim = 1: components"),
+               components, std::to_string(n_components));
+    check_reach(a.extent[0], a.stride[0], name + ".stride[0]");
+    if (a.ndim == 2) check_reach(components, a.stride[1], name + ".stride[1]");
+    if (a.extent[0] > 0 && a.data == nullptr)
+        throw Error(Status::null,
+                    name + ".data is NULL, but it has " + std::to_string(a.extent[0]) + " nodes");
+    if (reinterpret_cast<std::uintptr_t>(a.data) % element_size(a.dtype) != 0)
+        throw Error(Status::argument, name + ".data is not aligned to its " +
+                                          std::to_string(element_size(a.dtype)) + "-byte elements");
+}
+
+const void* element(const conn_array& a, Offset index) {
+    if (a.extent[0] == 0) return nullptr;
+    return a.dtype == CONN_FLOAT32
+               ? static_cast<const void*>(static_cast<const float*>(a.data) + index)
+               : static_cast<const double*>(a.data) + index;
+}
+
+template <class T>
+void copy_as(const Columns& columns, double* out) {
+    Kokkos::parallel_for("capi/copy",
+                         Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, columns.n),
+                         [=](const Offset i) {
+                             for (int c = 0; c < columns.n_components; ++c)
+                                 out[i * columns.n_components + c] = static_cast<double>(
+                                     static_cast<const T*>(columns.data[c])[i * columns.stride[c]]);
+                         });
+    HostExec().fence();
+}
+
+}  // namespace
+
+Columns read_columns(const conn_array* arrays, std::int32_t n_arrays, int n_components,
+                     const char* name) {
+    const std::string count = std::string("n_") + name;
+    if (n_arrays != 1 && n_arrays != n_components)
+        refuse(Status::argument, count, n_arrays, "1 or " + std::to_string(n_components));
+    if (arrays == nullptr) throw Error(Status::null, std::string(name) + " is NULL");
+    Columns columns;
+    columns.n_components = n_components;
+    columns.dtype = arrays[0].dtype;
+    columns.n = arrays[0].extent[0];
+    for (int k = 0; k < n_arrays; ++k) {
+        const conn_array& a = arrays[k];
+        const std::string which = std::string(name) + "[" + std::to_string(k) + "]";
+        check_array(a, n_components / n_arrays, which);
+        if (a.extent[0] != columns.n)
+            refuse(Status::argument, which + ".extent[0]", a.extent[0],
+                   std::to_string(columns.n) + " as in the first");
+        if (a.dtype != columns.dtype)
+            refuse(Status::argument, which + ".dtype", a.dtype, "that of the first");
+        for (int c = 0; c < n_components / n_arrays; ++c) {
+            columns.data[k + c] = element(a, a.ndim == 2 ? c * a.stride[1] : 0);
+            columns.stride[k + c] = a.stride[0];
+        }
+    }
+    return columns;
+}
+
+void copy_columns(const Columns& columns, double* out) {
+    if (columns.dtype == CONN_FLOAT32)
+        copy_as<float>(columns, out);
+    else
+        copy_as<double>(columns, out);
+}
+
+}  // namespace connectivity::capi

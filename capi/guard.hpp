@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// The one place where a C call enters C++: every exception becomes a status and a text.
+///
+/// Invariants: calls run one at a time; the last error belongs to the calling thread and is ""
+/// after a success.
+
+#include <exception>
+#include <mutex>
+#include <new>
+
+#include <connectivity/base/error.hpp>
+#include <connectivity/base/kokkos_shim.hpp>
+#include <connectivity/base/runtime.hpp>
+
+#include "connectivity.h"
+
+namespace connectivity::capi {
+
+const char* last_error() noexcept;
+void clear_error() noexcept;
+
+/// Keeps "function: text" as the error of this thread and returns the status for C.
+conn_status record_error(Status status, const char* function, const char* text) noexcept;
+
+/// Held by every call from start to end; also by a fork, so that no child sees an object half-way.
+std::mutex& call_mutex();
+
+/// Runs body() under the call mutex.
+template <class Body>
+conn_status guarded(const char* function, const Body& body) noexcept {
+    clear_error();
+    try {
+        const std::lock_guard lock(call_mutex());
+        body();
+        return CONN_OK;
+    } catch (const Error& e) {
+        return record_error(e.status(), function, e.what());
+    } catch (const std::bad_alloc& e) {
+        return record_error(Status::memory, function, e.what());
+    } catch (const std::exception& e) {
+        return record_error(Status::internal, function, e.what());
+    } catch (...) {
+        return record_error(Status::internal, function, "unknown exception");
+    }
+}
+
+/// The same for bodies that need Kokkos alive: all but destroying and releasing.
+template <class Body>
+conn_status guarded_with_runtime(const char* function, const Body& body) noexcept {
+    return guarded(function, [&] {
+        shim::outside_parallel_region([&] {
+            require_runtime();
+            body();
+        });
+    });
+}
+
+}  // namespace connectivity::capi

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <connectivity/base/types.hpp>
+
+#include "guard.hpp"
+#include "structs.hpp"
+
+using namespace connectivity;
+using namespace connectivity::capi;
+
+namespace {
+
+std::string describe_build() {
+    std::string text =
+        "{\"version\": \"" CONN_VERSION_STRING "\", \"kokkos\": \"" + runtime_description() +
+        "\", \"compiler\": \"" __VERSION__ "\", \"max_nodes\": " + std::to_string(max_slots);
+#if defined(NDEBUG)
+    text += ", \"asserts\": false";
+#else
+    text += ", \"asserts\": true";
+#endif
+    return text + "}";
+}
+
+}  // namespace
+
+const char* conn_status_text(conn_status status) {
+    return status_text(static_cast<Status>(status));
+}
+
+const char* conn_last_error(void) { return last_error(); }
+
+int32_t conn_version(void) { return CONN_VERSION; }
+
+const char* conn_version_string(void) { return CONN_VERSION_STRING; }
+
+const char* conn_build_info(void) {
+    try {
+        static const auto* const leaked = new std::string(describe_build());
+        return leaked->c_str();
+    } catch (...) {
+        return "{}";
+    }
+}
+
+// Not under the call mutex: stopping waits for running calls and empties the registry under it.
+conn_status conn_shutdown(void) {
+    clear_error();
+    try {
+        stop_runtime();
+        return CONN_OK;
+    } catch (const Error& e) {
+        return e.status() == Status::finalized ? CONN_OK
+                                               : record_error(e.status(), __func__, e.what());
+    } catch (const std::exception& e) {
+        return record_error(Status::internal, __func__, e.what());
+    } catch (...) {
+        return record_error(Status::internal, __func__, "unknown exception");
+    }
+}
+
+int64_t conn_abi_sizeof(int32_t which) {
+    switch (which) {
+        case CONN_STRUCT_ARRAY: return sizeof(conn_array);
+        case CONN_STRUCT_CONTEXT_OPTIONS: return sizeof(conn_context_options);
+        case CONN_STRUCT_MAP_OPTIONS: return sizeof(conn_map_options);
+        case CONN_STRUCT_MAP_INFO: return sizeof(conn_map_info);
+        case CONN_STRUCT_ROWS_VIEW: return sizeof(conn_rows_view);
+        case CONN_STRUCT_PAIRS_VIEW: return sizeof(conn_pairs_view);
+        case CONN_STRUCT_REPORT_ENTRY: return sizeof(conn_report_entry);
+        default: return 0;
+    }
+}
