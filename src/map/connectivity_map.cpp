@@ -88,7 +88,7 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
     const SearchRequest request{options.rows, options.pairs, options.mode, options.method, options.budget};
     auto& search = impl_->search<Dim>();
     ConstView<Slot> order;
-    if (options.spatial_order) order = search.spatial_order(nodes, layout);
+    if (options.spatial_order) order = search.spatial_order(nodes);
     search.run(nodes, layout, request, rows_, pairs_.half_rows_, report);
 
     // Nothing below can fail: this is where the new lists become the map's.

@@ -3,6 +3,7 @@
 
 #include "cells.hpp"
 #include "direct.hpp"
+#include "groups.hpp"
 
 namespace connectivity {
 
@@ -17,7 +18,9 @@ const char* name_of(SearchMethod method) {
 }
 
 template <int Dim>
-struct Search<Dim>::State {};
+struct Search<Dim>::State {
+    detail::GroupSearch<Dim> groups;
+};
 
 template <int Dim>
 Search<Dim>::Search() : state_(std::make_unique<State>()) {}
@@ -28,37 +31,62 @@ Search<Dim>::Search(Search&&) noexcept = default;
 template <int Dim>
 Search<Dim>& Search<Dim>::operator=(Search&&) noexcept = default;
 
+namespace {
+
+struct Choice {
+    SearchMethod method;
+    std::string reason;
+};
+
+/// Brute force while a block of the group search would hold all nodes anyway; groups beyond: cells never overtook them.
+Choice choose(SearchMethod asked, Offset n) {
+    constexpr Offset few = 48;
+    if (asked != SearchMethod::automatic) return {asked, std::string(name_of(asked)) + ": asked for"};
+    if (n <= few)
+        return {SearchMethod::brute,
+                "brute: " + std::to_string(n) + " nodes, at most " + std::to_string(few) + " are tested all with all"};
+    return {SearchMethod::groups, "groups: " + std::to_string(n) + " nodes, more than " + std::to_string(few)};
+}
+
+void report_product(Report& report, const char* name, bool asked, const std::string& reason, const Csr& list, double ms) {
+    report.entry(name) = {name, asked ? "caller" : "", asked ? reason : "", asked, false, list.bytes(), asked ? ms : 0};
+}
+
+}  // namespace
+
 template <int Dim>
 void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request, Csr& rows,
                       Csr& half_rows, Report& report) {
     const Stopwatch watch;
     const detail::Products products{rows, half_rows};
-    SearchMethod method = request.method;
-    if (method == SearchMethod::automatic) method = nodes.n <= 128 ? SearchMethod::brute : SearchMethod::cells;
-    if (method == SearchMethod::brute) {
-        detail::DirectBuild<Dim, detail::AllNodes>({nodes.n}, nodes, layout, request).run(products);
-    } else {
-        const detail::Cells<Dim> cells(nodes);
-        detail::DirectBuild<Dim, detail::Cells<Dim>>(cells, nodes, layout, request).run(products);
+    const Choice choice = choose(request.method, nodes.n);
+    switch (choice.method) {
+        case SearchMethod::brute:
+            detail::DirectBuild<Dim, detail::AllNodes>({nodes.n}, nodes, layout, request).run(products);
+            break;
+        case SearchMethod::cells: {
+            const detail::Cells<Dim> cells(nodes);
+            detail::DirectBuild<Dim, detail::Cells<Dim>>(cells, nodes, layout, request).run(products);
+            break;
+        }
+        default: state_->groups.run(nodes, layout, request, products, report);
     }
     if (!request.rows) rows.clear();
     if (!request.half_rows) half_rows.clear();
-    auto& entry = report.entry("rows");
-    entry.built = request.rows;
-    entry.bytes = rows.bytes();
-    entry.ms = watch.ms();
+    const double ms = watch.ms();
+    report_product(report, "rows", request.rows, choice.reason, rows, ms);
+    report_product(report, "pairs", request.half_rows, request.rows ? "found with the rows" : choice.reason, half_rows,
+                   request.rows ? 0 : ms);
 }
 
 template <int Dim>
-View<Slot> Search<Dim>::spatial_order(const SearchNodes<Dim>& nodes, const SlotLayout&) {
-    auto order = allocate<Slot>("search/order", nodes.n);
-    for (Offset i = 0; i < nodes.n; ++i) order(i) = static_cast<Slot>(i);
-    return order;
+View<Slot> Search<Dim>::spatial_order(const SearchNodes<Dim>& nodes) {
+    return state_->groups.spatial_order(nodes);
 }
 
 template <int Dim>
 Offset Search<Dim>::bytes() const {
-    return 0;
+    return state_->groups.bytes();
 }
 
 template class Search<1>;

@@ -49,7 +49,7 @@ public:
              Csr& half_rows, Report& report);
 
     /// Slots in an order that keeps neighbours close in memory, [n]; the order of the last run, where it sorted.
-    View<Slot> spatial_order(const SearchNodes<Dim>& nodes, const SlotLayout& layout);
+    View<Slot> spatial_order(const SearchNodes<Dim>& nodes);
 
     /// Bytes of order and scratch memory held.
     Offset bytes() const;

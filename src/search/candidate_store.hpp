@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// Memory of candidate lists, and the one sort by label that makes all rows of a block come out sorted.
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "kernels.hpp"
+
+namespace connectivity::detail {
+
+/// Grow-only memory, not initialised.
+template <class T>
+class Buffer {
+public:
+    T* data() { return data_.get(); }
+    const T* data() const { return data_.get(); }
+
+    /// Room for n elements; the first `keep` survive growth.
+    void reserve(std::size_t n, std::size_t keep = 0) {
+        if (n <= capacity_) return;
+        const std::size_t grown = std::max(n, capacity_ + capacity_ / 2);
+        std::unique_ptr<T[]> fresh(new T[grown]);
+        std::copy_n(data_.get(), keep, fresh.get());
+        data_ = std::move(fresh);
+        capacity_ = grown;
+    }
+    std::size_t bytes() const { return capacity_ * sizeof(T); }
+
+private:
+    std::unique_ptr<T[]> data_;
+    std::size_t capacity_ = 0;
+};
+
+template <int Dim>
+class CandidateStore {
+public:
+    CandidateList<Dim> list{};
+
+    /// Room for n candidates and what kernels write beyond; those in the list survive.
+    void reserve(int n) {
+        const auto size = static_cast<std::size_t>(n) + list_slack, keep = static_cast<std::size_t>(list.n);
+        for (int d = 0; d < Dim; ++d) x_[d].reserve(size, keep), list.x[d] = x_[d].data();
+        t_.reserve(size, keep), list.t = t_.data();
+        label_.reserve(size, keep), list.label = label_.data();
+    }
+    std::size_t bytes() const {
+        std::size_t sum = t_.bytes() + label_.bytes();
+        for (int d = 0; d < Dim; ++d) sum += x_[d].bytes();
+        return sum;
+    }
+
+private:
+    Buffer<float> x_[Dim], t_;
+    Buffer<int> label_;
+};
+
+/// Radix sort by label: the permutation first, then every field is moved once.
+class LabelSort {
+public:
+    /// Sorts `in` into `out` (room reserved), labels < 2^label_bits, and pads `out`.
+    template <int Dim>
+    void operator()(const CandidateList<Dim>& in, int label_bits, bool uniform, CandidateList<Dim>& out);
+
+private:
+    static constexpr int digit_bits = 11;
+    Buffer<int> from_, to_;
+    std::uint32_t count_[3][1 << digit_bits];
+};
+
+template <int Dim>
+void LabelSort::operator()(const CandidateList<Dim>& in, int label_bits, bool uniform, CandidateList<Dim>& out) {
+    const int n = in.n, passes = label_bits <= digit_bits ? 1 : label_bits <= 2 * digit_bits ? 2 : 3;
+    const int width = (label_bits + passes - 1) / passes;
+    const std::uint32_t mask = (1u << width) - 1;
+    for (int pass = 0; pass < passes; ++pass) std::fill_n(count_[pass], mask + 1, 0u);
+    const auto digit = [&](int k, int pass) { return static_cast<std::uint32_t>(in.label[k]) >> (pass * width) & mask; };
+    for (int k = 0; k < n; ++k)
+        for (int pass = 0; pass < passes; ++pass) ++count_[pass][digit(k, pass)];
+    for (int pass = 0; pass < passes; ++pass) {
+        std::uint32_t sum = 0;
+        for (std::uint32_t b = 0; b <= mask; ++b) sum += std::exchange(count_[pass][b], sum);
+    }
+    from_.reserve(n), to_.reserve(n);
+    int *from = from_.data(), *to = to_.data();
+    for (int k = 0; k < n; ++k) from[k] = k;
+    for (int pass = 0; pass + 1 < passes; ++pass) {
+        for (int k = 0; k < n; ++k) to[count_[pass][digit(from[k], pass)]++] = from[k];
+        std::swap(from, to);
+    }
+    for (int k = 0; k < n; ++k) {
+        const int source = from[k];
+        const std::uint32_t place = count_[passes - 1][digit(source, passes - 1)]++;
+        for (int d = 0; d < Dim; ++d) out.x[d][place] = in.x[d][source];
+        if (!uniform) out.t[place] = in.t[source];
+        out.label[place] = in.label[source];
+    }
+    out.n = n;
+    for (int k = n; k < n + list_slack; ++k) {
+        for (int d = 0; d < Dim; ++d) out.x[d][k] = 1e30f;
+        out.t[k] = 0;
+        out.label[k] = no_label;
+    }
+}
+
+}  // namespace connectivity::detail

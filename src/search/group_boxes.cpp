@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "group_boxes.hpp"
+
+#include <cmath>
+
+#include <connectivity/base/parallel.hpp>
+
+namespace connectivity::detail {
+
+template <int Dim>
+void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrder& order, Offset leaf) {
+    constexpr Offset look_ahead = 4 * leaf_size;  // hides the random reads of the caller's arrays
+    const Slot* const slot = order.slot.data() + leaf * leaf_size;
+    const bool fetch = (leaf + 5) * leaf_size <= static_cast<Offset>(order.slot.size());
+    double* const data = data_.data() + leaf * leaf_stride;
+    const double* const positions = nodes.positions.data();
+    const double* const reach2 = nodes.reach2.data();
+    ReachBox<Dim> box;
+    box.clear();
+    for (int k = 0; k < leaf_size; ++k) {
+        if (fetch && slot[k + look_ahead] >= 0) {
+            __builtin_prefetch(positions + static_cast<Offset>(slot[k + look_ahead]) * Dim);
+            __builtin_prefetch(positions + static_cast<Offset>(slot[k + look_ahead]) * Dim + Dim - 1);
+            __builtin_prefetch(reach2 + slot[k + look_ahead]);
+        }
+        if (slot[k] < 0) {
+            for (int d = 0; d < Dim; ++d) data[d * leaf_size + k] = std::numeric_limits<double>::infinity();
+            data[Dim * leaf_size + k] = -1;
+            continue;
+        }
+        double x[Dim];
+        for (int d = 0; d < Dim; ++d)
+            data[d * leaf_size + k] = x[d] = nodes.periods.any ? folded(nodes, slot[k], d)
+                                                                : positions[static_cast<Offset>(slot[k]) * Dim + d];
+        data[Dim * leaf_size + k] = reach2[slot[k]];
+        box.add(x, reach2[slot[k]]);
+    }
+    leaves_(leaf) = box;
+}
+
+template <int Dim>
+void GroupBoxes<Dim>::gather_tree(const SearchNodes<Dim>& nodes, const GroupOrder& order, const ClassTree& tree) {
+    const Offset n = tree.n_blocks;
+    ReachBox<Dim>* const box = tree_nodes_.data() + tree.first_node;
+    for_each_dynamic("search/groups/gather", n, [&](int, Offset b) {
+        ReachBox<Dim> block;
+        block.clear();
+        for (Offset l = order.block_leaf[tree.first_block + b]; l < order.block_leaf[tree.first_block + b + 1]; ++l) {
+            gather_leaf(nodes, order, l);
+            block.add(leaves_(l));
+        }
+        box[n + b] = block;
+    });
+    for (Offset k = n - 1; k >= 1; --k) {
+        box[k] = box[2 * k];
+        box[k].add(box[2 * k + 1]);
+    }
+    all_.add(box[1]);
+}
+
+template <int Dim>
+double GroupBoxes<Dim>::spread_of(const ReachBox<Dim>& block) const {
+    const double reach2 = block.reach2 > 0 ? block.reach2 : all_.least;
+    if (block.empty() || !(reach2 > 0) || !std::isfinite(reach2)) return 0;
+    double product = 1;
+    for (int d = 0; d < Dim; ++d) product *= std::min((block.hi[d] - block.lo[d]) / std::sqrt(reach2), 1e6) + 2;
+    return product;
+}
+
+template <int Dim>
+void GroupBoxes<Dim>::gather(const SearchNodes<Dim>& nodes, const GroupOrder& order) {
+    ensure_capacity(data_, "search/groups/nodes", order.n_leaves() * leaf_stride);
+    ensure_capacity(leaves_, "search/groups/leaves", order.n_leaves());
+    ensure_capacity(tree_nodes_, "search/groups/tree", order.n_tree_nodes);
+    all_.clear();
+    for (const ClassTree& tree : order.trees) gather_tree(nodes, order, tree);
+
+    blind_ = false;
+    spread_ = 0;
+    for (const ClassTree& tree : order.trees) {
+        blind_ = blind_ || tree_nodes_(tree.first_node + 1).reach2 < 0;
+        for (Offset b = 0; b < tree.n_blocks; ++b)
+            spread_ += spread_of(tree_nodes_(tree.first_node + tree.n_blocks + b));
+    }
+    fold_error_ = 0;
+    if (nodes.periods.any) {
+        double largest = 0;
+        const double* const x = nodes.positions.data();
+        Kokkos::parallel_reduce(
+            "search/groups/largest", Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, nodes.n * Dim),
+            [=](const Offset i, double& m) { m = std::max(m, std::fabs(x[i])); }, Kokkos::Max<double>(largest));
+        for (int d = 0; d < Dim; ++d) largest = std::max(largest, nodes.periods.length[d]);
+        fold_error_ = 8 * std::numeric_limits<double>::epsilon() * largest;
+    }
+}
+
+template class GroupBoxes<1>;
+template class GroupBoxes<2>;
+template class GroupBoxes<3>;
+
+}  // namespace connectivity::detail

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "group_worker.hpp"
+
+#include <numeric>
+
+namespace connectivity::detail {
+
+template <int Dim>
+void GroupWorker<Dim>::process(const GroupSweep<Dim>& sweep, int worker, Offset first, Offset last) {
+    sweep_ = &sweep;
+    see_ = significance(sweep.nodes);
+    superset_ = sweep.mode != SearchMode::gather_scatter || see_.H != nullptr;
+    worker_ = worker;
+    if (first < last) process({first, last, -1});
+}
+
+template <int Dim>
+ReachBox<Dim> GroupWorker<Dim>::box_of(const Range& range) const {
+    ReachBox<Dim> box;
+    box.clear();
+    if (range.only >= 0) {
+        const double* const data = sweep_->boxes.leaf_data(range.first) + range.only;
+        double x[Dim];
+        for (int d = 0; d < Dim; ++d) x[d] = data[d * leaf_size];
+        box.add(x, data[Dim * leaf_size]);
+        return box;
+    }
+    for (Offset l = range.first; l < range.last; ++l) box.add(sweep_->boxes.leaf(l));
+    return box;
+}
+
+/// Nothing is searched for ranges whose rows nobody wants, such as ghosts behind all stored nodes.
+template <int Dim>
+bool GroupWorker<Dim>::is_wanted(const Range& range) const {
+    const Slot* const slot = sweep_->order.slot.data();
+    const Offset begin = range.first * leaf_size + std::max(range.only, 0);
+    const Offset end = range.only < 0 ? range.last * leaf_size : begin + 1;
+    return std::any_of(slot + begin, slot + end, [this](Slot s) {
+        return s >= 0 && sweep_->store.wanted(s) != RowStore::Wanted::nothing;
+    });
+}
+
+template <int Dim>
+void GroupWorker<Dim>::process(const Range& range) {
+    if (!is_wanted(range)) {
+        const Slot* const slot = sweep_->order.slot.data();
+        for (Offset p = range.first * leaf_size; p < range.last * leaf_size; ++p)
+            if (slot[p] >= 0 && (range.only < 0 || p % leaf_size == range.only)) sweep_->store.store_nothing(slot[p]);
+        return;
+    }
+    const Frame<Dim> frame(box_of(range), sweep_->boxes);
+    const bool found = frame.is_good() && find_candidates(frame);
+    if (found) return test_groups(range, frame);
+    if (range.only >= 0) return process_exactly(range);
+    split(range);
+}
+
+template <int Dim>
+void GroupWorker<Dim>::split(const Range& range) {
+    if (range.last - range.first > 1) {
+        const Offset middle = (range.first + range.last) / 2;
+        process({range.first, middle, -1});
+        process({middle, range.last, -1});
+        return;
+    }
+    for (int k = 0; k < leaf_size; ++k)
+        if (sweep_->order.slot(range.first * leaf_size + k) >= 0) process({range.first, range.last, k});
+}
+
+/// Leaves that hold candidates for a box: a walk through every class's tree.
+template <int Dim>
+void GroupWorker<Dim>::find_leaves(const ReachBox<Dim>& box) {
+    const auto& boxes = sweep_->boxes;
+    const auto& order = sweep_->order;
+    const double slack = 2 * boxes.fold_error();
+    leaves_.clear();
+    for (const ClassTree& tree : order.trees) {
+        Offset stack[64];
+        int depth = 0;
+        stack[depth++] = 1;
+        while (depth > 0) {
+            const Offset node = stack[--depth];
+            if (!is_near(box, boxes.tree_node(tree.first_node + node), slack)) continue;
+            if (node < tree.n_blocks) {
+                stack[depth++] = 2 * node + 1;
+                stack[depth++] = 2 * node;
+                continue;
+            }
+            const Offset block = tree.first_block + node - tree.n_blocks;
+            for (Offset l = order.block_leaf[block]; l < order.block_leaf[block + 1]; ++l)
+                if (is_near(box, boxes.leaf(l), slack)) leaves_.push_back(static_cast<int>(l));
+        }
+    }
+}
+
+template <int Dim>
+void GroupWorker<Dim>::collect_image(const Frame<Dim>& frame, const double (&image)[Dim]) {
+    ReachBox<Dim> moved = frame.box;
+    for (int d = 0; d < Dim; ++d) moved.lo[d] -= image[d], moved.hi[d] -= image[d];
+    find_leaves(moved);
+    if (leaves_.empty()) return;
+    found_.reserve(found_.list.n + static_cast<int>(leaves_.size()) * leaf_size);
+    sweep_->kernels.collect(sweep_->boxes.leaf_array(sweep_->order), leaves_.data(), static_cast<int>(leaves_.size()),
+                            frame.map(image), frame.inside(frame.box, sweep_->boxes.fold_error()), found_.list);
+}
+
+/// Fills block_ with sorted candidates. False if a node came with two images: its distance is then not one number.
+template <int Dim>
+bool GroupWorker<Dim>::find_candidates(const Frame<Dim>& frame) {
+    const auto& periods = sweep_->nodes.periods;
+    int lowest[Dim], image[Dim], images = 0;
+    for (int d = 0; d < Dim; ++d) image[d] = lowest[d] = periods.length[d] > 0 ? -1 : 0;
+    found_.list.n = 0;
+    for (bool more = true; more;) {
+        double shift[Dim];
+        for (int d = 0; d < Dim; ++d) shift[d] = image[d] * periods.length[d];
+        const int before = found_.list.n;
+        collect_image(frame, shift);
+        images += found_.list.n > before;
+        more = false;
+        for (int d = 0; d < Dim && !more; ++d) {
+            more = ++image[d] <= -lowest[d];
+            if (!more) image[d] = lowest[d];
+        }
+    }
+    block_.reserve(found_.list.n);
+    sort_(found_.list, sweep_->label_bits, frame.uniform, block_.list);
+    counters.candidates += found_.list.n;
+    const int* const label = block_.list.label;
+    return images <= 1 || std::adjacent_find(label, label + block_.list.n) == label + block_.list.n;
+}
+
+template <int Dim>
+void GroupWorker<Dim>::test_groups(const Range& range, const Frame<Dim>& frame) {
+    constexpr Offset leaves_per_group = 4;
+    const double slack = sweep_->boxes.fold_error();
+    if (range.only >= 0) return test_leaf(range.first, range.only, frame);
+    for (Offset first = range.first; first < range.last; first += leaves_per_group) {
+        const Range group{first, std::min(first + leaves_per_group, range.last), -1};
+        group_.reserve(block_.list.n);
+        sweep_->kernels.filter(block_.list, frame.inside(box_of(group), slack), frame.widen(), frame.uniform,
+                               group_.list);
+        for (Offset leaf = group.first; leaf < group.last; ++leaf) test_leaf(leaf, -1, frame);
+    }
+}
+
+template <int Dim>
+void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame) {
+    const auto& boxes = sweep_->boxes;
+    const Slot* const slot = sweep_->order.slot.data() + leaf * leaf_size;
+    const double* const data = boxes.leaf_data(leaf);
+    const CandidateList<Dim>& wide = only < 0 ? group_.list : block_.list;
+    leaf_.reserve(wide.n);
+    const ReachBox<Dim> box = only < 0 ? boxes.leaf(leaf) : frame.box;
+    sweep_->kernels.filter(wide, frame.inside(box, boxes.fold_error()), frame.widen(), frame.uniform, leaf_.list);
+
+    LeafTest<Dim> test;
+    RowStore::Wanted wanted[leaf_size];
+    int own[leaf_size], place[leaf_size];
+    test.n_nodes = 0;
+    std::fill_n(own, leaf_size, 0);
+    for (int k = 0; k < leaf_size; ++k) {
+        if (slot[k] < 0 || (only >= 0 && k != only)) continue;
+        const int at = test.n_nodes++;
+        for (int d = 0; d < Dim; ++d)
+            test.x[d][at] = static_cast<float>((data[d * leaf_size + k] - frame.centre[d]) * frame.scale);
+        test.t[at] = static_cast<float>(data[Dim * leaf_size + k] * frame.t_scale());
+        own[at] = slot[k];
+        wanted[at] = sweep_->store.wanted(slot[k]);
+    }
+    const int words = n_words(leaf_.list.n);
+    sweep_->kernels.places(own, leaf_.list.label, leaf_.list.n, place);
+    for (int at = 0; at < test.n_nodes; ++at)
+        test.first_word[at] = wanted[at] == RowStore::Wanted::all     ? 0
+                              : wanted[at] == RowStore::Wanted::later ? place[at] / word_size
+                                                                      : words;
+    test.band = frame.band();
+    test.uniform = frame.uniform;
+    test.superset = superset_;
+    bits_.reserve(static_cast<std::size_t>(leaf_size) * words);
+    doubts_.reserve(static_cast<std::size_t>(leaf_size) * words);
+    const int n_doubts = sweep_->kernels.test(test, leaf_.list, bits_.data(), doubts_.data());
+    settle_doubts(own, words, n_doubts);
+    for (int at = 0; at < test.n_nodes; ++at)
+        keep_row(own[at], bits_.data() + static_cast<Offset>(at) * words, words, place[at], wanted[at]);
+}
+
+/// Candidates inside the error band: the double predicate decides.
+template <int Dim>
+void GroupWorker<Dim>::settle_doubts(const int* own, int words, int n_doubts) {
+    for (int k = 0; k < n_doubts; ++k) {
+        const Doubt& doubt = doubts_.data()[k];
+        std::uint64_t& word = bits_.data()[static_cast<Offset>(doubt.node) * words + doubt.word];
+        for (std::uint64_t left = doubt.bits; left != 0; left &= left - 1) {
+            const int bit = __builtin_ctzll(left), other = leaf_.list.label[doubt.word * word_size + bit];
+            if (see_(own[doubt.node], other, SearchMode::gather_scatter)) word |= std::uint64_t{1} << bit;
+        }
+    }
+    counters.doubts += n_doubts;
+}
+
+/// Every hit of a float test that only narrows is decided in double.
+template <int Dim>
+void GroupWorker<Dim>::confirm(Slot slot, std::uint64_t* bits, int first_word, int words) const {
+    for (int w = first_word; w < words; ++w)
+        for (std::uint64_t left = bits[w]; left != 0; left &= left - 1) {
+            const int bit = __builtin_ctzll(left);
+            if (!see_(slot, leaf_.list.label[w * word_size + bit], sweep_->mode)) bits[w] &= ~(std::uint64_t{1} << bit);
+        }
+}
+
+template <int Dim>
+void GroupWorker<Dim>::keep_row(Slot slot, std::uint64_t* bits, int words, int place, RowStore::Wanted wanted) {
+    if (wanted == RowStore::Wanted::nothing) return sweep_->store.store_nothing(slot);
+    const int own_word = place / word_size;
+    bits[own_word] &= ~(std::uint64_t{1} << (place % word_size));
+    if (wanted == RowStore::Wanted::later) bits[own_word] &= ~std::uint64_t{0} << (place % word_size);
+    if (superset_) confirm(slot, bits, wanted == RowStore::Wanted::all ? 0 : own_word, words);
+    sweep_->store.store(worker_, {slot, bits, leaf_.list.label, words, place});
+}
+
+/// The last resort for a node whose frame has no good floats: all nodes of near leaves, each once, in double.
+template <int Dim>
+void GroupWorker<Dim>::process_exactly(const Range& range) {
+    const Slot slot = sweep_->order.slot(range.first * leaf_size + range.only);
+    const auto& periods = sweep_->nodes.periods;
+    ReachBox<Dim> box = box_of(range);
+    for (int d = 0; d < Dim; ++d)  // any image: the walk must not miss one
+        if (periods.length[d] > 0) box.lo[d] = -periods.length[d], box.hi[d] = 2 * periods.length[d];
+    find_leaves(box);
+    auto& list = leaf_.list;
+    list.n = 0;
+    leaf_.reserve(static_cast<int>(leaves_.size()) * leaf_size);
+    for (const int leaf : leaves_)
+        for (int k = 0; k < leaf_size; ++k)
+            if (const Slot other = sweep_->order.slot(static_cast<Offset>(leaf) * leaf_size + k); other >= 0)
+                list.label[list.n++] = other;
+    std::sort(list.label, list.label + list.n);
+    std::fill_n(list.label + list.n, list_slack, no_label);
+    const int words = n_words(list.n);
+    bits_.reserve(words);
+    std::fill_n(bits_.data(), words, std::uint64_t{0});
+    for (int k = 0; k < list.n; ++k)
+        if (list.label[k] != slot && see_(slot, list.label[k], sweep_->mode))
+            bits_.data()[k / word_size] |= std::uint64_t{1} << (k % word_size);
+    const int place = static_cast<int>(std::lower_bound(list.label, list.label + list.n, slot) - list.label);
+    ++counters.exact_nodes;
+    const auto wanted = sweep_->store.wanted(slot);
+    if (wanted == RowStore::Wanted::later) {
+        std::fill_n(bits_.data(), place / word_size, std::uint64_t{0});
+        bits_.data()[place / word_size] &= ~std::uint64_t{0} << (place % word_size);
+    }
+    sweep_->store.store(worker_, {slot, bits_.data(), list.label, words, place});
+}
+
+template <int Dim>
+Offset GroupWorker<Dim>::bytes() const {
+    return static_cast<Offset>(found_.bytes() + block_.bytes() + group_.bytes() + leaf_.bytes() + bits_.bytes() +
+                               doubts_.bytes() + leaves_.capacity() * sizeof(int) + sizeof(*this));
+}
+
+template class GroupWorker<1>;
+template class GroupWorker<2>;
+template class GroupWorker<3>;
+
+}  // namespace connectivity::detail

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// The vector kernels of the group search, one table per instruction set, chosen at run time.
+///
+/// Raw pointers only: the files that implement a table are compiled for wide instructions and therefore include neither
+/// Kokkos nor the standard containers, so that no wide code can leak into the baseline through an inline function.
+///
+/// Coordinates are floats in the frame of a block: relative to its centre, in units near its reach. Thresholds are
+/// squared reaches in the same unit, lowered by the error band: d <= t is certain, d > t * (1 + band) is certainly not.
+
+#include <cstdint>
+
+namespace connectivity::detail {
+
+constexpr int leaf_size = 16;   ///< nodes a leaf; unused places hold coordinates at infinity
+constexpr int word_size = 64;   ///< candidates tested into one word of bits
+constexpr int list_slack = 64;  ///< entries that a kernel may write beyond the end of a list
+constexpr int no_label = 0x7fffffff;
+
+/// Candidates, sorted by label once `sort_by_label` ran; padded to whole words with points at infinity.
+template <int Dim>
+struct CandidateList {
+    float* x[Dim];
+    float* t;    ///< own thresholds; untouched where all nodes have one reach
+    int* label;  ///< slots
+    int n;
+};
+
+/// Box in a frame, rounded outward, with the largest threshold of the nodes in it.
+template <int Dim>
+struct FrameBox {
+    float lo[Dim], hi[Dim];
+    float t;
+};
+
+/// How the nodes of leaves come into a frame.
+template <int Dim>
+struct FrameMap {
+    double centre[Dim];  ///< of the frame, moved by the periodic image
+    double scale;        ///< frame units per length
+    double t_scale;      ///< threshold per squared length: scale² * (1 - error)
+    float widen;         ///< 1 + what box tests need beyond a threshold
+    bool uniform;        ///< all nodes have the same reach
+};
+
+/// Nodes in search order, by leaves of 16: for each leaf x[Dim][16], reach²[16].
+struct LeafArray {
+    const double* nodes;
+    const int* label;
+    int stride;  ///< doubles a leaf
+};
+
+/// The nodes of one leaf against a sorted list.
+template <int Dim>
+struct LeafTest {
+    float x[Dim][leaf_size];
+    float t[leaf_size];
+    int n_nodes;
+    int first_word[leaf_size];  ///< words before it are not wanted
+    float band;                 ///< upper edge of the error band over its lower edge
+    bool uniform;
+    bool superset;  ///< report every candidate that may be significant as a bit, and no doubts
+};
+
+/// A word with candidates inside the error band.
+struct Doubt {
+    int node, word;
+    std::uint64_t bits;
+};
+
+template <int Dim>
+struct Kernels {
+    const char* name;
+    /// Appends the nodes of `leaves` whose distance to the box is within reach of either side.
+    void (*collect)(const LeafArray&, const int* leaves, int n_leaves, const FrameMap<Dim>&, const FrameBox<Dim>&,
+                    CandidateList<Dim>& out);
+    /// Keeps the order: candidates of `in` within reach of the box, packed to the front of `out`.
+    void (*filter)(const CandidateList<Dim>& in, const FrameBox<Dim>&, float widen, bool uniform,
+                   CandidateList<Dim>& out);
+    /// bits[node * n_words + word]; returns the number of doubts written.
+    int (*test)(const LeafTest<Dim>&, const CandidateList<Dim>&, std::uint64_t* bits, Doubt* doubts);
+    /// Labels whose bit is set, in order; may write 16 beyond. Returns their number.
+    int (*expand)(const std::uint64_t* bits, int n_words, const int* label, int* out);
+    /// Places of 16 labels in a sorted list of n: the last entry that is not larger.
+    void (*places)(const int* own, const int* label, int n, int* place);
+};
+
+/// The table for this processor, or the one that the environment variable CONNECTIVITY_ISA names (portable, avx2,
+/// avx512), if the processor has it.
+template <int Dim>
+const Kernels<Dim>& kernels();
+
+template <int Dim>
+const Kernels<Dim>& portable_kernels();
+#if defined(CONNECTIVITY_X86_KERNELS)
+template <int Dim>
+const Kernels<Dim>& avx2_kernels();
+template <int Dim>
+const Kernels<Dim>& avx512_kernels();
+#endif
+
+inline int n_words(int n) { return (n + word_size - 1) / word_size; }
+
+}  // namespace connectivity::detail

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels with AVX2 and FMA: eight lanes.
+#include <immintrin.h>
+
+#include "kernels_impl.hpp"
+
+namespace {
+
+/// For every mask of eight lanes the permutation that moves its lanes to the front.
+struct PackTable {
+    alignas(32) int lane[256][8];
+    constexpr PackTable() : lane{} {
+        for (int mask = 0; mask < 256; ++mask)
+            for (int bit = 0, k = 0; bit < 8; ++bit)
+                if (mask >> bit & 1) lane[mask][k++] = bit;
+    }
+};
+constexpr PackTable pack_table;
+
+struct Avx2 {
+    static constexpr int lanes = 8;
+    using F = __m256;
+    static F load(const float* p) { return _mm256_loadu_ps(p); }
+    static F set(float a) { return _mm256_set1_ps(a); }
+    static F sub(F a, F b) { return _mm256_sub_ps(a, b); }
+    static F mul(F a, F b) { return _mm256_mul_ps(a, b); }
+    static F fma(F a, F b, F c) { return _mm256_fmadd_ps(a, b, c); }
+    static F max(F a, F b) { return _mm256_max_ps(a, b); }
+    static unsigned le(F a, F b) { return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ))); }
+    static int count(unsigned mask) { return __builtin_popcount(mask); }
+    static __m256i lanes_of(unsigned mask) {
+        return _mm256_load_si256(reinterpret_cast<const __m256i*>(pack_table.lane[mask]));
+    }
+    static void pack(float* to, unsigned mask, F a) {
+        _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(a, lanes_of(mask)));
+    }
+    static void pack(int* to, unsigned mask, const int* from) {
+        const __m256i a = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(a, lanes_of(mask)));
+    }
+    static F load_doubles(const double* p, double centre, double scale) {
+        const __m256d c = _mm256_set1_pd(centre), s = _mm256_set1_pd(scale);
+        const __m128 low = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_sub_pd(_mm256_loadu_pd(p), c), s));
+        const __m128 high = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_sub_pd(_mm256_loadu_pd(p + 4), c), s));
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1);
+    }
+    static int unpack(int* out, std::uint64_t word, const int* label) {
+        for (int bit = 0; bit < 64; bit += 8)
+            pack(out + (bit > 0 ? __builtin_popcountll(word << (64 - bit)) : 0),
+                 static_cast<unsigned>(word >> bit & 255), label + bit);
+        return __builtin_popcountll(word);
+    }
+    static void places(const int* own, const int* label, int n, int* place) {
+        for (int v = 0; v < connectivity::detail::leaf_size; v += lanes) {
+            __m256i at = _mm256_setzero_si256();
+            const __m256i wanted = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(own + v));
+            for (int length = n; length > 1;) {
+                const int half = length / 2;
+                const __m256i found = _mm256_i32gather_epi32(label + half, at, 4);
+                const __m256i above = _mm256_cmpgt_epi32(found, wanted);
+                at = _mm256_add_epi32(at, _mm256_andnot_si256(above, _mm256_set1_epi32(half)));
+                length -= half;
+            }
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(place + v), at);
+        }
+    }
+};
+
+}  // namespace
+
+CONNECTIVITY_DEFINE_KERNELS(avx2_kernels, Avx2, "avx2")

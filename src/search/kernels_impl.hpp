@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// Bodies of the vector kernels over a type `V` of vector operations. Included once by each instruction set's file, after
+/// its V; everything lives in an anonymous namespace, so that no two instruction sets share a function.
+///
+/// V has: lanes, F (vector of floats), load, set, sub, mul, fma, max, le (mask), pack (store the lanes of a mask to the
+/// front; may write all lanes), load_doubles (16 doubles -> floats in a frame), places.
+
+#include "kernels.hpp"
+
+namespace connectivity::detail {
+namespace {
+
+/// Squared distance of points to a box.
+template <class V, int Dim>
+inline typename V::F box_distance2(const typename V::F (&x)[Dim], const typename V::F (&lo)[Dim],
+                                   const typename V::F (&hi)[Dim]) {
+    typename V::F sum = V::set(0);
+    for (int d = 0; d < Dim; ++d) {
+        const auto gap = V::max(V::max(V::sub(lo[d], x[d]), V::sub(x[d], hi[d])), V::set(0));
+        sum = V::fma(gap, gap, sum);
+    }
+    return sum;
+}
+
+/// Appends points whose distance to a box is within reach.
+template <class V, int Dim, bool Uniform>
+struct BoxFilter {
+    typename V::F lo[Dim], hi[Dim], own, widen;
+
+    BoxFilter(const FrameBox<Dim>& box, float widening) : own(V::set(box.t * widening)), widen(V::set(widening)) {
+        for (int d = 0; d < Dim; ++d) lo[d] = V::set(box.lo[d]), hi[d] = V::set(box.hi[d]);
+    }
+
+    inline void append(const typename V::F (&x)[Dim], typename V::F t, const int* label, CandidateList<Dim>& out) const {
+        const auto reach = Uniform ? own : V::max(own, V::mul(t, widen));
+        const unsigned keep = V::le(box_distance2<V, Dim>(x, lo, hi), reach);
+        for (int d = 0; d < Dim; ++d) V::pack(out.x[d] + out.n, keep, x[d]);
+        if (!Uniform) V::pack(out.t + out.n, keep, t);
+        V::pack(out.label + out.n, keep, label);
+        out.n += V::count(keep);
+    }
+};
+
+template <int Dim>
+inline void pad(CandidateList<Dim>& list) {
+    for (int k = list.n; k < list.n + list_slack; ++k) {
+        for (int d = 0; d < Dim; ++d) list.x[d][k] = 1e30f;
+        list.t[k] = 0;
+        list.label[k] = no_label;
+    }
+}
+
+template <class V, int Dim, bool Uniform>
+void collect_as(const LeafArray& array, const int* leaves, int n_leaves, const FrameMap<Dim>& map,
+                const FrameBox<Dim>& box, CandidateList<Dim>& out) {
+    const BoxFilter<V, Dim, Uniform> filter(box, map.widen);
+    for (int k = 0; k < n_leaves; ++k) {
+        const double* const nodes = array.nodes + static_cast<long>(leaves[k]) * array.stride;
+        const int* const label = array.label + static_cast<long>(leaves[k]) * leaf_size;
+        for (int v = 0; v < leaf_size; v += V::lanes) {
+            typename V::F x[Dim], t = V::set(0);
+            for (int d = 0; d < Dim; ++d) x[d] = V::load_doubles(nodes + d * leaf_size + v, map.centre[d], map.scale);
+            if (!Uniform) t = V::load_doubles(nodes + Dim * leaf_size + v, 0.0, map.t_scale);
+            filter.append(x, t, label + v, out);
+        }
+    }
+}
+
+template <class V, int Dim>
+void collect(const LeafArray& array, const int* leaves, int n_leaves, const FrameMap<Dim>& map,
+             const FrameBox<Dim>& box, CandidateList<Dim>& out) {
+    map.uniform ? collect_as<V, Dim, true>(array, leaves, n_leaves, map, box, out)
+                : collect_as<V, Dim, false>(array, leaves, n_leaves, map, box, out);
+}
+
+template <class V, int Dim, bool Uniform>
+void filter_as(const CandidateList<Dim>& in, const FrameBox<Dim>& box, float widen, CandidateList<Dim>& out) {
+    const BoxFilter<V, Dim, Uniform> filter(box, widen);
+    CandidateList<Dim> list = out;  // a local copy keeps the length in a register
+    list.n = 0;
+    for (int k = 0; k < in.n; k += V::lanes) {
+        typename V::F x[Dim];
+        for (int d = 0; d < Dim; ++d) x[d] = V::load(in.x[d] + k);
+        filter.append(x, Uniform ? V::set(0) : V::load(in.t + k), in.label + k, list);
+    }
+    // The padding of the last vector lies at infinity and never passes.
+    out.n = list.n;
+    pad(out);
+}
+
+template <class V, int Dim>
+void filter(const CandidateList<Dim>& in, const FrameBox<Dim>& box, float widen, bool uniform,
+            CandidateList<Dim>& out) {
+    uniform ? filter_as<V, Dim, true>(in, box, widen, out) : filter_as<V, Dim, false>(in, box, widen, out);
+}
+
+template <class V, int Dim, bool Uniform>
+int test_as(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint64_t* bits, Doubt* doubts) {
+    const int words = n_words(list.n);
+    const auto band = V::set(leaf.band);
+    int n_doubts = 0;
+    for (int node = 0; node < leaf.n_nodes; ++node) {
+        typename V::F x[Dim];
+        for (int d = 0; d < Dim; ++d) x[d] = V::set(leaf.x[d][node]);
+        const auto own = V::set(leaf.t[node]), own_upper = V::set(leaf.t[node] * leaf.band);
+        for (int word = leaf.first_word[node]; word < words; ++word) {
+            std::uint64_t sure = 0, maybe = 0;
+            for (int v = 0; v < word_size; v += V::lanes) {
+                const int k = word * word_size + v;
+                const auto dx = V::sub(x[0], V::load(list.x[0] + k));
+                auto d2 = V::mul(dx, dx);
+                for (int d = 1; d < Dim; ++d) {
+                    const auto dy = V::sub(x[d], V::load(list.x[d] + k));
+                    d2 = V::fma(dy, dy, d2);
+                }
+                const auto lower = Uniform ? own : V::max(own, V::load(list.t + k));
+                const auto upper = Uniform ? own_upper : V::mul(lower, band);
+                sure |= static_cast<std::uint64_t>(V::le(d2, lower)) << v;
+                maybe |= static_cast<std::uint64_t>(V::le(d2, upper)) << v;
+            }
+            bits[node * words + word] = leaf.superset ? maybe : sure;
+            if (maybe != sure && !leaf.superset) doubts[n_doubts++] = {node, word, maybe & ~sure};
+        }
+    }
+    return n_doubts;
+}
+
+template <class V, int Dim>
+int test(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint64_t* bits, Doubt* doubts) {
+    return leaf.uniform ? test_as<V, Dim, true>(leaf, list, bits, doubts)
+                        : test_as<V, Dim, false>(leaf, list, bits, doubts);
+}
+
+template <class V>
+int expand(const std::uint64_t* bits, int words, const int* label, int* out) {
+    int n = 0;
+    for (int w = 0; w < words; ++w) n += V::unpack(out + n, bits[w], label + w * word_size);
+    return n;
+}
+
+template <class V, int Dim>
+constexpr Kernels<Dim> make_kernels(const char* name) {
+    return {name, collect<V, Dim>, filter<V, Dim>, test<V, Dim>, expand<V>, V::places};
+}
+
+}  // namespace
+}  // namespace connectivity::detail
+
+#define CONNECTIVITY_DEFINE_KERNELS(function, V, name)                   \
+    namespace connectivity::detail {                                     \
+    template <int Dim>                                                   \
+    const Kernels<Dim>& function() {                                     \
+        static constexpr Kernels<Dim> table = make_kernels<V, Dim>(name); \
+        return table;                                                    \
+    }                                                                    \
+    template const Kernels<1>& function<1>();                            \
+    template const Kernels<2>& function<2>();                            \
+    template const Kernels<3>& function<3>();                            \
+    }

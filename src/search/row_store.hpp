@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// Rows as the group search finds them, in any order, and their way into the final lists in slot order.
+///
+/// Invariants: every slot is stored exactly once a sweep; a slot's row lies in the arena of the worker that found it.
+/// While `counting`, or once the arenas outgrow the budget, rows are only counted: counts are exact all the same.
+/// Cost: 16 bytes a slot, and in the arenas 4 bytes for every entry kept.
+
+#include <atomic>
+#include <vector>
+
+#include <connectivity/base/parallel.hpp>
+
+#include "products.hpp"
+#include "row_arena.hpp"
+
+namespace connectivity::detail {
+
+/// Bits of one node over a sorted list of labels.
+struct FoundRow {
+    Slot slot;
+    const std::uint64_t* bits;
+    const int* label;
+    int n_words;
+    int place;  ///< of the node's own label in the list; its bit is off
+};
+
+/// Where a row lies in an arena.
+struct ArenaRow {
+    const Slot* first;
+};
+
+/// Turns bits into labels; Kernels<Dim>::expand.
+using ExpandFunction = int (*)(const std::uint64_t* bits, int n_words, const int* label, int* out);
+
+class RowStore {
+public:
+    /// What a sweep must find for a slot.
+    enum class Wanted { nothing, later, all };
+
+    /// Makes room. Throws Error{memory}.
+    void begin(const SlotLayout& layout, bool rows, bool halves, Offset budget_bytes, ExpandFunction expand);
+
+    /// Starts a sweep; counting ones keep no rows.
+    void begin_sweep(bool counting);
+
+    Wanted wanted(Slot slot) const;
+
+    /// Called by worker `worker`. Throws Error{memory}.
+    void store(int worker, const FoundRow& row);
+    void store_nothing(Slot slot);
+
+    /// The arenas outgrew the budget: the counts are complete, the rows are not.
+    bool over_budget() const { return over_.load(std::memory_order_relaxed); }
+
+    Counts counts() const;
+
+    /// Moves all rows into the prepared lists. Cannot fail.
+    void transfer(Products products) const;
+
+    /// Entries counted for a slot, whatever was wanted.
+    Offset entries(Slot slot) const { return length_(slot); }
+
+    /// Gives the arenas back.
+    void release();
+    Offset bytes() const;
+
+private:
+    struct alignas(64) Worker {
+        RowArena arena;
+        std::vector<Slot> row;
+    };
+
+    Slot* room(Worker& worker, Offset n);
+    int keep_stored(Slot* row, int n) const;
+    void count_lists(Offset row, const Slot* slots, Offset n);
+    void fill_rows(Csr& rows) const;
+    void fill_halves(Csr& halves) const;
+
+    const SlotLayout* layout_ = nullptr;
+    bool rows_ = false, halves_ = false, counting_ = false;
+    Offset budget_ = 0;
+    Slot last_stored_ = -1;
+    ExpandFunction expand_ = nullptr;
+    std::atomic<bool> over_{false};
+    std::atomic<Offset> used_{0};
+    std::vector<Worker> workers_;
+    View<ArenaRow> row_;  // [n_slots]; nowhere while counting
+    View<Slot> length_;   // [n_slots]: entries there
+    View<Slot> later_;    // [n_slots]: how many of them, at the end, belong to the half row
+    View<Slot> by_list_;  // [n_rows * n_lists], only for several lists
+};
+
+}  // namespace connectivity::detail
