@@ -98,7 +98,7 @@ void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layo
     if (workers_.size() < static_cast<std::size_t>(n_workers())) workers_ = std::vector<GroupWorker<Dim>>(n_workers());
     for (auto& worker : workers_) worker.counters = {};
     const Offset allowed = request.budget.allowed();
-    store_.begin(layout, request.rows, request.half_rows, allowed, table.expand);
+    store_.begin(layout, request.rows, request.half_rows, allowed, {table.expand, table.count});
     const GroupSweep<Dim> shared{nodes, order_, boxes_, table, request.mode, bits_for(nodes.n), store_};
 
     // Rows are counted before any are kept where keeping them might not fit.

@@ -81,6 +81,8 @@ struct Kernels {
     int (*test)(const LeafTest<Dim>&, const CandidateList<Dim>&, std::uint64_t* bits, Doubt* doubts);
     /// Labels whose bit is set, in order; may write 16 beyond. Returns their number.
     int (*expand)(const std::uint64_t* bits, int n_words, const int* label, int* out);
+    /// Set bits before position `place`.
+    int (*count)(const std::uint64_t* bits, int place);
     /// Places of 16 labels in a sorted list of n: the last entry that is not larger.
     void (*places)(const int* own, const int* label, int n, int* place);
 };

@@ -139,9 +139,18 @@ int expand(const std::uint64_t* bits, int words, const int* label, int* out) {
     return n;
 }
 
+// Compiled with the population count of V's instruction set.
+template <class V>
+int count(const std::uint64_t* bits, int place) {
+    int n = 0;
+    for (int w = 0; w < place / word_size; ++w) n += __builtin_popcountll(bits[w]);
+    const int rest = place % word_size;
+    return rest > 0 ? n + __builtin_popcountll(bits[place / word_size] << (word_size - rest)) : n;
+}
+
 template <class V, int Dim>
 constexpr Kernels<Dim> make_kernels(const char* name) {
-    return {name, collect<V, Dim>, filter<V, Dim>, test<V, Dim>, expand<V>, V::places};
+    return {name, collect<V, Dim>, filter<V, Dim>, test<V, Dim>, expand<V>, count<V>, V::places};
 }
 
 }  // namespace

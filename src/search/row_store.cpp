@@ -7,28 +7,12 @@
 
 namespace connectivity::detail {
 
-namespace {
-
-int count_bits(const FoundRow& row, int first_word, std::uint64_t first_mask) {
-    if (first_word >= row.n_words) return 0;
-    int n = __builtin_popcountll(row.bits[first_word] & first_mask);
-    for (int w = first_word + 1; w < row.n_words; ++w) n += __builtin_popcountll(row.bits[w]);
-    return n;
-}
-
-/// Entries after the node's own place.
-int count_later(const FoundRow& row) {
-    return count_bits(row, row.place / word_size, ~std::uint64_t{0} << (row.place % word_size));
-}
-
-}  // namespace
-
-void RowStore::begin(const SlotLayout& layout, bool rows, bool halves, Offset budget_bytes, ExpandFunction expand) {
+void RowStore::begin(const SlotLayout& layout, bool rows, bool halves, Offset budget_bytes, BitKernels kernels) {
     layout_ = &layout;
     rows_ = rows;
     halves_ = halves;
     budget_ = budget_bytes;
-    expand_ = expand;
+    kernels_ = kernels;
     last_stored_ = -1;
     for (int l = 0; l < layout.n_lists(); ++l) {
         const Offset n_stored = layout.row_offset()[l + 1] - layout.row_offset()[l];
@@ -55,8 +39,7 @@ RowStore::Wanted RowStore::wanted(Slot slot) const {
 }
 
 void RowStore::store_nothing(Slot slot) {
-    row_(slot) = {nullptr};
-    length_(slot) = later_(slot) = 0;
+    record(slot, nullptr, 0, 0);
     if (const Offset row = layout_->row_of_slot(slot); rows_ && row >= 0) count_lists(row, nullptr, 0);
 }
 
@@ -91,26 +74,26 @@ void RowStore::store(int worker_number, const FoundRow& found) {
     Worker& worker = workers_[worker_number];
     const Offset row = layout_->row_of_slot(found.slot);
     const bool whole = rows_ && row >= 0;
-    const int first = whole ? 0 : found.place / word_size;
-    int later = count_later(found);
-    const int n = whole ? count_bits(found, 0, ~std::uint64_t{0})
-                        : count_bits(found, first, ~std::uint64_t{0});
+    const int first = whole ? 0 : found.place / word_size, most = (found.n_words - first) * word_size;
+    const int before = whole ? kernels_.count(found.bits, found.place) : 0;
     // Only the number matters while counting, unless entries must be told apart.
-    const bool only_counts = (counting_ || over_budget()) && row >= 0 && (!whole || layout_->n_lists() == 1);
-    if (only_counts) {
-        row_(found.slot) = {nullptr};
-        length_(found.slot) = whole ? n : later;
-        later_(found.slot) = later;
+    if ((counting_ || over_budget()) && row >= 0 && (!whole || layout_->n_lists() == 1)) {
+        const int n = kernels_.count(found.bits + first, most);
+        record(found.slot, nullptr, n, n - before);
         return;
     }
-    Slot* const out = room(worker, n);
-    int length = expand_(found.bits + first, found.n_words - first, found.label + first * word_size, out);
-    if (row < 0) length = later = keep_stored(out, length);
-    if (whole) count_lists(row, out, length);
-    if (out != worker.row.data()) worker.arena.end_row(length);
-    row_(found.slot) = {out};
-    length_(found.slot) = length;
-    later_(found.slot) = later;
+    Slot* const out = room(worker, most);
+    int n = kernels_.expand(found.bits + first, found.n_words - first, found.label + first * word_size, out);
+    if (row < 0) n = keep_stored(out, n);
+    if (whole) count_lists(row, out, n);
+    if (out != worker.row.data()) worker.arena.end_row(n);
+    record(found.slot, out, n, n - before);
+}
+
+void RowStore::record(Slot slot, const Slot* first, int n, int later) {
+    row_(slot) = {first};
+    length_(slot) = n;
+    later_(slot) = later;
 }
 
 Counts RowStore::counts() const {

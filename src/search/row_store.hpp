@@ -22,7 +22,7 @@ struct FoundRow {
     const std::uint64_t* bits;
     const int* label;
     int n_words;
-    int place;  ///< of the node's own label in the list; its bit is off
+    int place;  ///< of the node's own label in the list; its bit is off, and all below if only later entries are wanted
 };
 
 /// Where a row lies in an arena.
@@ -30,8 +30,11 @@ struct ArenaRow {
     const Slot* first;
 };
 
-/// Turns bits into labels; Kernels<Dim>::expand.
-using ExpandFunction = int (*)(const std::uint64_t* bits, int n_words, const int* label, int* out);
+/// What a row store does with bits; see Kernels<Dim>.
+struct BitKernels {
+    int (*expand)(const std::uint64_t* bits, int n_words, const int* label, int* out);
+    int (*count)(const std::uint64_t* bits, int place);
+};
 
 class RowStore {
 public:
@@ -39,7 +42,7 @@ public:
     enum class Wanted { nothing, later, all };
 
     /// Makes room. Throws Error{memory}.
-    void begin(const SlotLayout& layout, bool rows, bool halves, Offset budget_bytes, ExpandFunction expand);
+    void begin(const SlotLayout& layout, bool rows, bool halves, Offset budget_bytes, BitKernels kernels);
 
     /// Starts a sweep; counting ones keep no rows.
     void begin_sweep(bool counting);
@@ -72,6 +75,7 @@ private:
     };
 
     Slot* room(Worker& worker, Offset n);
+    void record(Slot slot, const Slot* first, int n, int later);
     int keep_stored(Slot* row, int n) const;
     void count_lists(Offset row, const Slot* slots, Offset n);
     void fill_rows(Csr& rows) const;
@@ -81,7 +85,7 @@ private:
     bool rows_ = false, halves_ = false, counting_ = false;
     Offset budget_ = 0;
     Slot last_stored_ = -1;
-    ExpandFunction expand_ = nullptr;
+    BitKernels kernels_{};
     std::atomic<bool> over_{false};
     std::atomic<Offset> used_{0};
     std::vector<Worker> workers_;
