@@ -23,8 +23,7 @@ const std::string own_file = CONNECTIVITY_SOURCE_DIR "/tests/support/data/connec
 std::vector<double> flat(const json& rows) {
     std::vector<double> values;
     for (const json& row : rows)
-        for (const json& value : row)
-            values.push_back(value.get<double>());
+        for (const json& value : row) values.push_back(value.get<double>());
     return values;
 }
 
@@ -91,8 +90,7 @@ json pairs_of(ConnectivityMap& map) {
 /// The file lists every node; a map has rows of stored nodes.
 json stored_part(json all, const json& n_stored) {
     for (std::size_t k = 0; k < all.size(); ++k)
-        while (all[k].size() > n_stored[k].get<std::size_t>())
-            all[k].erase(all[k].size() - 1);
+        while (all[k].size() > n_stored[k].get<std::size_t>()) all[k].erase(all[k].size() - 1);
     return all;
 }
 
@@ -121,8 +119,7 @@ void check_file(std::ifstream& file) {
     const json cases = json::parse(file)["cases"];
     ASSERT_GT(cases.size(), 0u);
     for (const json& source : cases)
-        for (const SearchMethod method : all_methods)
-            check(source, method);
+        for (const SearchMethod method : all_methods) check(source, method);
 }
 
 TEST(OracleCases, rows_counts_gather_scatter_and_pairs_are_the_exact_ones) {
@@ -133,10 +130,9 @@ TEST(OracleCases, rows_counts_gather_scatter_and_pairs_are_the_exact_ones) {
 
 TEST(OracleCases, the_full_reference_file_holds_too) {
     std::ifstream file(shared_dir + "/oracle/connectivity_cases.json");
-    if (!file)
-        GTEST_SKIP() << "no reference data beside the repository: " << shared_dir;
+    if (!file) GTEST_SKIP() << "no reference data beside the repository: " << shared_dir;
     check_file(file);
 }
 
-} // namespace
-} // namespace connectivity::test
+}  // namespace
+}  // namespace connectivity::test

@@ -32,9 +32,7 @@ private:
     ConnectivityMap map_;
 };
 
-TEST_P(RandomCases, small_ones_equal_brute_force_in_every_method) {
-    check(0, 700, kind(0, 200));
-}
+TEST_P(RandomCases, small_ones_equal_brute_force_in_every_method) { check(0, 700, kind(0, 200)); }
 
 TEST_P(RandomCases, larger_ones_equal_brute_force_in_every_method) {
     check(5000, 12, kind(1000, 3000));
@@ -49,5 +47,5 @@ INSTANTIATE_TEST_SUITE_P(All, RandomCases,
                          ::testing::Combine(::testing::Values(1, 2, 3), ::testing::Bool()),
                          name_of_kind);
 
-} // namespace
-} // namespace connectivity::test
+}  // namespace
+}  // namespace connectivity::test

@@ -13,10 +13,10 @@ namespace connectivity::test {
 
 /// What the library has to deliver, as plain arrays.
 struct Expected {
-    std::vector<Offset> list_offset, row_offset; ///< [n_lists + 1]
-    std::vector<Offset> row_offsets;             ///< [n_rows * n_lists + 1]
+    std::vector<Offset> list_offset, row_offset;  ///< [n_lists + 1]
+    std::vector<Offset> row_offsets;              ///< [n_rows * n_lists + 1]
     std::vector<Slot> row_slots;
-    std::vector<Offset> pair_offsets; ///< [n_slots + 1]; empty where the mode has no pairs
+    std::vector<Offset> pair_offsets;  ///< [n_slots + 1]; empty where the mode has no pairs
     std::vector<Slot> pair_j;
 };
 
@@ -30,4 +30,4 @@ Expected brute_force(const Case& c);
 ::testing::AssertionResult rows_equal(const RowsView<>& rows, const Expected& expected);
 ::testing::AssertionResult pairs_equal(const NodePairList::View<>& pairs, const Expected& expected);
 
-} // namespace connectivity::test
+}  // namespace connectivity::test

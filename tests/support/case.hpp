@@ -13,10 +13,10 @@ namespace connectivity::test {
 struct ListData {
     std::string name = "nodes";
     Offset n_internal = 0;
-    std::vector<double> x; ///< [n * dim]
-    std::vector<double> h; ///< [n], or empty
-    std::vector<double> H; ///< [n * n_symmetric(dim)], or empty
-    bool tensor = false;   ///< which of the two it is
+    std::vector<double> x;  ///< [n * dim]
+    std::vector<double> h;  ///< [n], or empty
+    std::vector<double> H;  ///< [n * n_symmetric(dim)], or empty
+    bool tensor = false;    ///< which of the two it is
     double extent = 2;
 };
 
@@ -26,7 +26,7 @@ struct Case {
     Domain domain;
     bool ghost_rows = false;
     SearchMode mode = SearchMode::gather_scatter;
-    std::string text; ///< what it is and how to make it again
+    std::string text;  ///< what it is and how to make it again
 
     Offset n(std::size_t list) const { return static_cast<Offset>(lists[list].x.size()) / dim; }
     Offset n_slots() const;
@@ -54,4 +54,4 @@ void rebuild(ConnectivityMap& map, const Case& c, SearchMethod method = SearchMe
 inline constexpr SearchMethod all_methods[] = {SearchMethod::brute, SearchMethod::cells,
                                                SearchMethod::groups, SearchMethod::automatic};
 
-} // namespace connectivity::test
+}  // namespace connectivity::test

@@ -11,8 +11,7 @@ class Fnv1a {
 public:
     void add(const void* data, std::size_t bytes) {
         const auto* c = static_cast<const unsigned char*>(data);
-        for (std::size_t k = 0; k < bytes; ++k)
-            value_ = (value_ ^ c[k]) * 1099511628211ull;
+        for (std::size_t k = 0; k < bytes; ++k) value_ = (value_ ^ c[k]) * 1099511628211ull;
     }
     /// All elements of a host View.
     template <class View>
@@ -25,4 +24,4 @@ private:
     std::uint64_t value_ = 14695981039346656037ull;
 };
 
-} // namespace connectivity::test
+}  // namespace connectivity::test

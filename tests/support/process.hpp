@@ -16,8 +16,8 @@ std::int64_t peak_resident_bytes();
 void reset_peak();
 
 struct RunResult {
-    int status = -1; ///< exit status, -1 if it did not exit by itself
-    std::string out; ///< standard output
+    int status = -1;  ///< exit status, -1 if it did not exit by itself
+    std::string out;  ///< standard output
 };
 
 /// Runs one test of this executable with additional environment, "NAME=value NAME=value".
@@ -26,4 +26,4 @@ RunResult run_this_test_program(const std::string& gtest_filter, const std::stri
 /// Absolute path of this executable.
 std::string program_path();
 
-} // namespace connectivity::test
+}  // namespace connectivity::test

@@ -43,4 +43,4 @@ private:
     std::uint64_t seed_, k_ = 0;
 };
 
-} // namespace connectivity::test
+}  // namespace connectivity::test

@@ -9,7 +9,7 @@ namespace connectivity::test {
 
 struct CaseKind {
     int dim = 3;
-    bool periodic = false; ///< at least one periodic axis
+    bool periodic = false;  ///< at least one periodic axis
     int max_nodes = 200;
     int min_nodes = 0;
 };
@@ -23,4 +23,4 @@ class Random;
 /// Writes n_symmetric(dim) values.
 void rotated_tensor(int dim, const double (&axes)[3], Random& random, double* packed);
 
-} // namespace connectivity::test
+}  // namespace connectivity::test

@@ -18,12 +18,12 @@ struct Workload {
     std::string name;
     int dim = 3;
     Offset n = 0;
-    std::vector<double> x; ///< [n * dim], shuffled
-    std::vector<double> R; ///< [n] support radii
+    std::vector<double> x;  ///< [n * dim], shuffled
+    std::vector<double> R;  ///< [n] support radii
     bool constant_R = true;
-    Offset n_pairs = 0; ///< exact number of unique gather-or-scatter pairs
+    Offset n_pairs = 0;  ///< exact number of unique gather-or-scatter pairs
     std::uint64_t hash = 0,
-                  wanted_hash = 0; ///< of the points before the shuffle, always three components
+                  wanted_hash = 0;  ///< of the points before the shuffle, always three components
 
     /// Whether this machine made the documented points. W3 and W5 use cos, sin and cbrt: other
     /// mathematics libraries may round them differently.
@@ -35,4 +35,4 @@ Workload make_workload(const std::string& name);
 
 inline constexpr const char* all_workloads[] = {"W1", "W2", "W3", "W4", "W5", "W6", "W7"};
 
-} // namespace connectivity::test
+}  // namespace connectivity::test
