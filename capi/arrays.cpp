@@ -92,7 +92,8 @@ Columns read_columns(const conn_array* arrays, std::int32_t n_arrays, int n_comp
     columns.n = arrays[0].extent[0];
     for (int k = 0; k < n_arrays; ++k) {
         const conn_array& a = arrays[k];
-        const std::string which = std::string(name) + "[" + std::to_string(k) + "]";
+        const std::string which =
+            n_arrays == 1 ? std::string(name) : std::string(name) + "[" + std::to_string(k) + "]";
         check_array(a, n_components / n_arrays, which);
         if (a.extent[0] != columns.n)
             refuse(Status::argument, which + ".extent[0]", a.extent[0],

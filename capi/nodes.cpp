@@ -85,8 +85,8 @@ conn_status conn_nodes_set_h(conn_nodes* nodes, int64_t n_internal, const conn_a
                              int32_t n_positions, const conn_array* h) {
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_nodes>(nodes, "nodes");
-        set_nodes(ours, n_internal, read_columns(positions, n_positions, ours.dim, "positions"),
-                  read_columns(h, 1, 1, "h"), false);
+        const Columns x = read_columns(positions, n_positions, ours.dim, "positions");
+        set_nodes(ours, n_internal, x, read_columns(h, 1, 1, "h"), false);
     });
 }
 
@@ -95,7 +95,8 @@ conn_status conn_nodes_set_tensor(conn_nodes* nodes, int64_t n_internal,
                                   const conn_array* tensor, int32_t n_tensor) {
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_nodes>(nodes, "nodes");
-        set_nodes(ours, n_internal, read_columns(positions, n_positions, ours.dim, "positions"),
+        const Columns x = read_columns(positions, n_positions, ours.dim, "positions");
+        set_nodes(ours, n_internal, x,
                   read_columns(tensor, n_tensor, n_symmetric(ours.dim), "tensor"), true);
     });
 }

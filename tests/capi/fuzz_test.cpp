@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Garbage in every argument: any status may come back, but the library stays whole. Pointers are
+// NULL, live, dead or point to enough memory; everything else is random bytes.
+
+#include <cstring>
+#include <support/random.hpp>
+
+#include "capi_support.hpp"
+
+namespace connectivity::test {
+namespace {
+
+constexpr int room = 64;  // doubles behind every data pointer
+
+class Fuzz {
+public:
+    explicit Fuzz(std::uint64_t seed) : random_(seed) {
+        for (double& value : memory_) value = random_.uniform();
+        nodes_.handle = nullptr;
+        for (int k = 0; k < 4; ++k)
+            EXPECT_TRUE(ok(conn_nodes_create(context_.handle, "x", 1 + k % 3, 2,
+                                             &lists_[static_cast<std::size_t>(k)])));
+        dead_nodes_ = lists_[3];
+        conn_nodes_destroy(&lists_[3]);
+        EXPECT_TRUE(ok(conn_map_create(context_.handle, nullptr, &dead_map_)));
+        conn_map* copy = dead_map_;
+        conn_map_destroy(&copy);
+    }
+    ~Fuzz() {
+        for (conn_nodes*& list : lists_) conn_nodes_destroy(&list);
+    }
+    Fuzz(const Fuzz&) = delete;
+    Fuzz& operator=(const Fuzz&) = delete;
+
+    int n_built = 0, n_views = 0;  ///< calls that got through
+
+    void call() {
+        switch (random_.below(17)) {
+            case 0: return set_h();
+            case 1: return set_tensor();
+            case 2: return rebuild();
+            case 3: return set_options();
+            case 4: return acquire_rows();
+            case 5: return acquire_pairs();
+            case 6:
+                return with_struct<conn_map_info>([&](auto* s) { conn_map_get_info(map(), s); });
+            case 7:
+                return with_struct<conn_report_entry>(
+                    [&](auto* s) { conn_map_report_entry(map(), number(), s); });
+            case 8: return report();
+            case 9: return two_calls();
+            case 10: return create_nodes();
+            case 11: return create_context();
+            case 12: return release_garbage();
+            case 13: conn_status_text(static_cast<int>(random_.bits())); return;
+            case 14: conn_abi_sizeof(static_cast<int>(random_.bits())); return;
+            case 15: return init();
+            default: return create_map();
+        }
+    }
+
+private:
+    std::int32_t number() {
+        const int edge[] = {-1, 0, 1, 2, 3, 4, 6, 100, -2147483647, 2147483647};
+        return random_.chance(0.9) ? edge[random_.below(random_.chance(0.5) ? 4 : 10)]
+                                   : static_cast<int>(random_.bits());
+    }
+    std::int64_t long_number() {
+        return random_.chance(0.8) ? number() : static_cast<std::int64_t>(random_.bits());
+    }
+    /// Strides and extents inside the memory or so large that they must be refused before a read.
+    conn_array array() {
+        conn_array a = conn_array_vector(memory_.data(), random_.below(5));
+        if (random_.chance(0.7))
+            a = conn_array_matrix(memory_.data(), random_.below(5), 1 + random_.below(6));
+        if (random_.chance(0.1)) a.data = nullptr;
+        if (random_.chance(0.1))
+            a.data = reinterpret_cast<char*>(memory_.data()) + random_.below(8);
+        if (random_.chance(0.1)) a.space = number();
+        if (random_.chance(0.1)) a.dtype = number();
+        if (random_.chance(0.1)) a.ndim = number();
+        if (random_.chance(0.1)) a.extent[0] = -1 - static_cast<std::int64_t>(random_.bits() >> 2);
+        if (random_.chance(0.1))
+            a.extent[0] = (std::int64_t{1} << 31) + static_cast<std::int64_t>(random_.bits() >> 2);
+        if (random_.chance(0.1)) a.extent[1] = long_number();
+        if (random_.chance(0.1)) a.stride[0] = random_.below(6);
+        return a;
+    }
+    conn_nodes* nodes() {
+        const int k = random_.below(10);
+        return k < 4    ? lists_[k]
+               : k == 4 ? dead_nodes_
+               : k == 5 ? reinterpret_cast<conn_nodes*>(map_.handle)
+                        : lists_[0];
+    }
+    conn_map* map() {
+        const int k = random_.below(10);
+        return k == 0   ? nullptr
+               : k == 1 ? dead_map_
+               : k == 2 ? reinterpret_cast<conn_map*>(lists_[0])
+                        : map_.handle;
+    }
+    conn_context* context() { return random_.chance(0.9) ? context_.handle : nullptr; }
+
+    void spoil(void* data, std::size_t size) {
+        auto* bytes = static_cast<unsigned char*>(data);
+        for (int k = random_.below(4); k > 0; --k)
+            bytes[random_.below(static_cast<int>(size))] =
+                static_cast<unsigned char>(random_.bits());
+    }
+    /// A struct in more memory than any size the library accepts; spoilt or pure noise.
+    template <class T, class Call>
+    void with_struct(const Call& call) {
+        alignas(T) unsigned char bytes[8192] = {};
+        const bool is_noise = random_.chance(0.3);
+        if (is_noise)
+            for (unsigned char& byte : bytes) byte = static_cast<unsigned char>(random_.bits());
+        std::size_t size = sizeof(T);
+        if (random_.chance(0.2)) size = static_cast<std::size_t>(long_number());
+        if (random_.chance(0.2)) size += static_cast<std::size_t>(random_.below(64));
+        std::memcpy(bytes, &size, sizeof size);
+        if (random_.chance(0.5)) spoil(bytes + sizeof size, sizeof(T) - sizeof size);
+        call(reinterpret_cast<T*>(random_.chance(0.95) ? bytes : nullptr));
+    }
+
+    /// Good nodes for one of the live lists, so that the calls behind have something to do.
+    void set_well() {
+        const int k = random_.below(3), n = random_.below(8);
+        const conn_array x = conn_array_matrix(memory_.data(), n, 1 + k),
+                         h = conn_array_vector(memory_.data() + 32, n);
+        EXPECT_TRUE(ok(conn_nodes_set_h(lists_[static_cast<std::size_t>(k)], n, &x, 1, &h)));
+    }
+    void set_h() {
+        if (random_.chance(0.5)) return set_well();
+        const conn_array x[4] = {array(), array(), array(), array()}, h = array();
+        std::int32_t n = number();
+        if (n > 4) n = 4;
+        conn_nodes_set_h(nodes(), random_.chance(0.8) ? x[0].extent[0] : long_number(), x, n,
+                         random_.chance(0.95) ? &h : nullptr);
+    }
+    void set_tensor() {
+        const conn_array x = array();
+        conn_array H[6];
+        for (conn_array& component : H) component = array();
+        conn_nodes_set_tensor(nodes(), x.extent[0], &x, 1, H, random_.chance(0.5) ? 1 : number());
+    }
+    void rebuild() {
+        conn_nodes* some[4] = {nodes(), nodes(), nodes(), nodes()};
+        std::int32_t n = random_.chance(0.5) ? 1 : number();
+        if (n > 4 && n < 100000) n = 4;
+        if (conn_map_rebuild(map(), random_.chance(0.95) ? some : nullptr, n) == CONN_OK) ++n_built;
+    }
+    void set_options() {
+        with_struct<conn_map_options>([&](auto* s) {
+            if (s != nullptr && random_.chance(0.7)) {
+                const std::size_t size = s->struct_size;
+                *s = CONN_MAP_OPTIONS_INIT;
+                s->struct_size = size;
+                if (random_.chance(0.5)) spoil(&s->rows, sizeof *s - sizeof size);
+            }
+            conn_map_set_options(map(), s);
+        });
+    }
+    void acquire_rows() {
+        with_struct<conn_rows_view>([&](auto* s) {
+            if (conn_map_rows_acquire(map(), number(), s) != CONN_OK) return;
+            EXPECT_TRUE(ok(conn_map_rows_release(s)));
+            ++n_views;
+        });
+    }
+    void acquire_pairs() {
+        with_struct<conn_pairs_view>([&](auto* s) {
+            if (conn_map_pairs_acquire(map(), number(), number(), s) != CONN_OK) return;
+            EXPECT_TRUE(ok(conn_map_pairs_release(s)));
+            ++n_views;
+        });
+    }
+    void release_garbage() {
+        with_struct<conn_rows_view>([](auto* s) { conn_map_rows_release(s); });
+        with_struct<conn_pairs_view>([](auto* s) { conn_map_pairs_release(s); });
+    }
+    void report() {
+        const char* name = nullptr;
+        std::int64_t value = 0;
+        conn_map_report_counter(map(), number(), random_.chance(0.5) ? &name : nullptr, &value);
+        char buffer[room];
+        conn_map_report_text(map(), random_.chance(0.8) ? buffer : nullptr, random_.below(room),
+                             &value);
+    }
+    void two_calls() {
+        std::int64_t out[room], count = 0;
+        std::int32_t nodes_out[room];
+        conn_map_offsets(map(), out, random_.chance(0.5) ? nullptr : out, random_.below(room),
+                         &count);
+        conn_map_spatial_order(map(), number(), nodes_out, random_.below(room), &count);
+        conn_nodes_size(nodes(), random_.chance(0.5) ? nullptr : &count, &count);
+    }
+    void create_nodes() {
+        conn_nodes* made = nullptr;
+        const char* names[] = {"x", "", nullptr, "a longer name"};
+        conn_nodes_create(context(), names[random_.below(4)], number(), random_.uniform(-1, 3),
+                          &made);
+        EXPECT_TRUE(ok(conn_nodes_destroy(&made)));
+    }
+    void create_context() {
+        with_struct<conn_context_options>([&](auto* s) {
+            conn_context* made = nullptr;
+            conn_context_create(s, random_.chance(0.9) ? &made : nullptr);
+            EXPECT_TRUE(ok(conn_context_destroy(&made)));
+        });
+    }
+    void create_map() {
+        with_struct<conn_map_options>([&](auto* s) {
+            conn_map* made = nullptr;
+            conn_map_create(context(), s, random_.chance(0.9) ? &made : nullptr);
+            EXPECT_TRUE(ok(conn_map_destroy(&made)));
+        });
+    }
+    void init() {
+        with_struct<conn_map_options>(
+            [&](auto* s) { conn_map_options_init(s, static_cast<std::size_t>(long_number())); });
+    }
+
+    Random random_;
+    std::array<double, room> memory_{};
+    Context context_;
+    Nodes nodes_{context_, 3};
+    Map map_{context_};
+    std::array<conn_nodes*, 4> lists_{};
+    conn_nodes* dead_nodes_ = nullptr;
+    conn_map* dead_map_ = nullptr;
+};
+
+TEST(CapiFuzz, garbage_never_breaks_the_library) {
+    int n_built = 0, n_views = 0;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        Fuzz fuzz(seed);
+        for (int k = 0; k < 2000; ++k) fuzz.call();
+        n_built += fuzz.n_built;
+        n_views += fuzz.n_views;
+    }
+    EXPECT_GT(n_built, 50) << "too much of the garbage was refused at the door";
+    EXPECT_GT(n_views, 50);
+    const NodeSet set = random_nodes(3, 100, 1);
+    EXPECT_EQ(lists_of(Context(), 3, {set}), brute_force(3, {set}));
+}
+
+}  // namespace
+}  // namespace connectivity::test
