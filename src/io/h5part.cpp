@@ -18,8 +18,7 @@ constexpr const char* list_name = "particles";
 
 /// Number of a step from its group's name; -1 if the name is none of a step.
 Offset step_number(const std::string& name) {
-    if (!name.starts_with(prefix))
-        return -1;
+    if (!name.starts_with(prefix)) return -1;
     Offset number = -1;
     const char* const end = name.data() + name.size();
     const auto [stop, code] =
@@ -35,8 +34,7 @@ struct Step {
 std::vector<Step> steps_of(const hdf5::Group& root) {
     std::vector<Step> steps;
     for (const auto& name : root.members())
-        if (step_number(name) >= 0)
-            steps.push_back({step_number(name), name});
+        if (step_number(name) >= 0) steps.push_back({step_number(name), name});
     std::sort(steps.begin(), steps.end(),
               [](const Step& a, const Step& b) { return a.number < b.number; });
     return steps;
@@ -44,11 +42,9 @@ std::vector<Step> steps_of(const hdf5::Group& root) {
 
 Step choose_step(const hdf5::Group& root, std::optional<Offset> asked) {
     const auto steps = steps_of(root);
-    if (!asked)
-        return steps.back();
+    if (!asked) return steps.back();
     for (const auto& step : steps)
-        if (step.number == *asked)
-            return step;
+        if (step.number == *asked) return step;
     throw Error(Status::argument,
                 fmt::format("{} has no step {}: it has {} from {} to {}", root.where(), *asked,
                             steps.size(), steps.front().number, steps.back().number));
@@ -57,7 +53,8 @@ Step choose_step(const hdf5::Group& root, std::optional<Offset> asked) {
 class H5Part : public SnapshotReader {
 public:
     H5Part(const hdf5::Group& root, SnapshotInfo info, const ReadOptions& options)
-        : info_(std::move(info)), step_(root.group(choose_step(root, options.step).group)),
+        : info_(std::move(info)),
+          step_(root.group(choose_step(root, options.step).group)),
           extent_(options.kernel_extent.value_or(2.0)) {
         info_.format = "H5Part";
         const auto steps = steps_of(root);
@@ -66,8 +63,7 @@ public:
         if (!step_.has_dataset("x"))
             throw Error(Status::format, step_.where() + " has no coordinates x, y, z");
         info_.dim = step_.has_dataset("y") ? (step_.has_dataset("z") ? 3 : 2) : 1;
-        if (!options.open)
-            read_domain();
+        if (!options.open) read_domain();
         const auto shape = step_.shape("x");
         if (shape.size() != 1)
             throw Error(Status::format, fmt::format("{} has shape {}, must be [n]",
@@ -85,12 +81,9 @@ public:
         const ConstView<double> h =
             entry.has_support ? read_field(step_, "h", n) : allocate_zeroed<double>("io/h", n);
         ListData data{NodeList::with_h(list, info_.dim, n, positions, h, extent_)};
-        if (fields.mass && entry.has_mass)
-            data.mass = read_field(step_, "m", n);
-        if (fields.density && step_.has_dataset("rho"))
-            data.density = read_field(step_, "rho", n);
-        if (fields.global_id && step_.has_dataset("id"))
-            data.global_id = read_ids(step_, "id", n);
+        if (fields.mass && entry.has_mass) data.mass = read_field(step_, "m", n);
+        if (fields.density && step_.has_dataset("rho")) data.density = read_field(step_, "rho", n);
+        if (fields.global_id && step_.has_dataset("id")) data.global_id = read_ids(step_, "id", n);
         return data;
     }
 
@@ -99,16 +92,14 @@ private:
         auto positions = allocate<double>("io/positions", n * info_.dim);
         for (int d = 0; d < info_.dim; ++d) {
             const auto axis = read_field(step_, std::string(1, "xyz"[d]), n);
-            for (Offset i = 0; i < n; ++i)
-                positions(i * info_.dim + d) = axis(i);
+            for (Offset i = 0; i < n; ++i) positions(i * info_.dim + d) = axis(i);
         }
         return positions;
     }
 
     /// Attributes box [xmin, xmax, ymin, ...] and boundaryType [3] (1 = periodic) of SPH-EXA.
     void read_domain() {
-        if (!step_.has_attribute("box") || !step_.has_attribute("boundaryType"))
-            return;
+        if (!step_.has_attribute("box") || !step_.has_attribute("boundaryType")) return;
         const auto box = step_.numbers("box"), boundary = step_.numbers("boundaryType");
         if (box.size() != 6 || boundary.size() != 3)
             throw Error(Status::format,
@@ -125,15 +116,13 @@ private:
     double extent_;
 };
 
-} // namespace
+}  // namespace
 
-bool is_h5part_file(const hdf5::Group& root) {
-    return !steps_of(root).empty();
-}
+bool is_h5part_file(const hdf5::Group& root) { return !steps_of(root).empty(); }
 
 std::unique_ptr<SnapshotReader> open_h5part(hdf5::Group root, SnapshotInfo info,
                                             const ReadOptions& options) {
     return std::make_unique<H5Part>(root, std::move(info), options);
 }
 
-} // namespace connectivity::io
+}  // namespace connectivity::io

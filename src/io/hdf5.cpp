@@ -19,17 +19,14 @@ std::string innermost_reason() {
     std::string reason;
     const H5E_walk2_t first_record = [](unsigned, const H5E_error2_t* record, void* out) -> herr_t {
         auto& text = *static_cast<std::string*>(out);
-        if (text.empty() && record->desc)
-            text = record->desc;
+        if (text.empty() && record->desc) text = record->desc;
         return 0;
     };
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, first_record, &reason);
     return reason;
 }
 
-void be_quiet() {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
+void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 /// Says why before HDF5 sees the file: its own messages do not tell these cases apart.
 void check_readable(const std::string& path) {
@@ -47,11 +44,9 @@ void check_readable(const std::string& path) {
         throw Error(Status::format, fmt::format("'{}' is not an HDF5 file", path));
 }
 
-} // namespace
+}  // namespace
 
-std::string text_of(const Shape& shape) {
-    return fmt::format("[{}]", fmt::join(shape, ", "));
-}
+std::string text_of(const Shape& shape) { return fmt::format("[{}]", fmt::join(shape, ", ")); }
 
 Handle& Handle::operator=(Handle&& other) noexcept {
     if (this != &other) {
@@ -74,11 +69,9 @@ Group Group::open_file(const std::string& path) {
     root.file_name_ = path;
     root.file_ =
         std::make_shared<Handle>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    if (!root.file_->valid())
-        root.fail_io({}, "cannot open");
+    if (!root.file_->valid()) root.fail_io({}, "cannot open");
     root.group_ = Handle(H5Gopen2(*root.file_, "/", H5P_DEFAULT), H5Gclose);
-    if (!root.group_.valid())
-        root.fail_io({}, "cannot open");
+    if (!root.group_.valid()) root.fail_io({}, "cannot open");
     return root;
 }
 
@@ -88,11 +81,9 @@ Group Group::create_file(const std::string& path) {
     root.file_name_ = path;
     root.file_ = std::make_shared<Handle>(
         H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-    if (!root.file_->valid())
-        root.fail_io({}, "cannot create");
+    if (!root.file_->valid()) root.fail_io({}, "cannot create");
     root.group_ = Handle(H5Gopen2(*root.file_, "/", H5P_DEFAULT), H5Gclose);
-    if (!root.group_.valid())
-        root.fail_io({}, "cannot create");
+    if (!root.group_.valid()) root.fail_io({}, "cannot create");
     return root;
 }
 
@@ -113,29 +104,25 @@ void Group::fail_io(const std::string& name, const std::string& what) const {
 }
 
 bool Group::has_group(const std::string& name) const {
-    if (H5Lexists(group_, name.c_str(), H5P_DEFAULT) <= 0)
-        return false;
+    if (H5Lexists(group_, name.c_str(), H5P_DEFAULT) <= 0) return false;
     const Handle object(H5Oopen(group_, name.c_str(), H5P_DEFAULT), H5Oclose);
     return object.valid() && H5Iget_type(object) == H5I_GROUP;
 }
 
 bool Group::has_dataset(const std::string& name) const {
-    if (H5Lexists(group_, name.c_str(), H5P_DEFAULT) <= 0)
-        return false;
+    if (H5Lexists(group_, name.c_str(), H5P_DEFAULT) <= 0) return false;
     const Handle object(H5Oopen(group_, name.c_str(), H5P_DEFAULT), H5Oclose);
     return object.valid() && H5Iget_type(object) == H5I_DATASET;
 }
 
 Group Group::group(const std::string& name) const {
-    if (!has_group(name))
-        fail(Status::format, {}, fmt::format("lacks the group {}", name));
+    if (!has_group(name)) fail(Status::format, {}, fmt::format("lacks the group {}", name));
     Group child;
     child.file_ = file_;
     child.file_name_ = file_name_;
     child.path_ = path_ + "/" + name;
     child.group_ = Handle(H5Gopen2(group_, name.c_str(), H5P_DEFAULT), H5Gclose);
-    if (!child.group_.valid())
-        fail_io(name, "cannot open");
+    if (!child.group_.valid()) fail_io(name, "cannot open");
     return child;
 }
 
@@ -159,8 +146,7 @@ std::vector<std::string> Group::members() const {
 }
 
 void Group::flush() {
-    if (H5Fflush(*file_, H5F_SCOPE_GLOBAL) < 0)
-        fail_io({}, "cannot write");
+    if (H5Fflush(*file_, H5F_SCOPE_GLOBAL) < 0) fail_io({}, "cannot write");
 }
 
-} // namespace connectivity::hdf5
+}  // namespace connectivity::hdf5

@@ -74,9 +74,9 @@ public:
 
     bool has_group(const std::string& name) const;
     bool has_dataset(const std::string& name) const;
-    Group group(const std::string& name) const; ///< throws Error{format}
+    Group group(const std::string& name) const;  ///< throws Error{format}
     Group create_group(const std::string& name);
-    std::vector<std::string> members() const; ///< names, ascending
+    std::vector<std::string> members() const;  ///< names, ascending
 
     /// Throws Error{format} if there is no such dataset or it does not hold numbers.
     Shape shape(const std::string& name) const;
@@ -109,11 +109,11 @@ public:
 
     bool has_attribute(const std::string& name) const;
     std::vector<double> numbers(
-        const std::string& name) const;           ///< throws Error{format} if missing or no numbers
-    double number(const std::string& name) const; ///< of one value
+        const std::string& name) const;  ///< throws Error{format} if missing or no numbers
+    double number(const std::string& name) const;  ///< of one value
     double number_or(const std::string& name, double otherwise) const;
     std::optional<std::string> text(
-        const std::string& name) const; ///< none if missing or no string
+        const std::string& name) const;  ///< none if missing or no string
 
     template <class T>
     void set(const std::string& name, const std::vector<T>& values) {
@@ -146,4 +146,4 @@ private:
     std::string file_name_, path_;
 };
 
-} // namespace connectivity::hdf5
+}  // namespace connectivity::hdf5

@@ -21,18 +21,17 @@ Handle string_type() {
 bool is_number(hid_t type) {
     const H5T_class_t kind = H5Tget_class(type);
     return kind == H5T_INTEGER || kind == H5T_FLOAT ||
-           kind == H5T_ENUM; // an enum is how h5py stores a bool
+           kind == H5T_ENUM;  // an enum is how h5py stores a bool
 }
 
-} // namespace
+}  // namespace
 
 bool Group::has_attribute(const std::string& name) const {
     return H5Aexists(group_, name.c_str()) > 0;
 }
 
 std::vector<double> Group::numbers(const std::string& name) const {
-    if (!has_attribute(name))
-        fail(Status::format, {}, fmt::format("lacks the attribute {}", name));
+    if (!has_attribute(name)) fail(Status::format, {}, fmt::format("lacks the attribute {}", name));
     const Handle attribute(H5Aopen(group_, name.c_str(), H5P_DEFAULT), H5Aclose);
     const Handle type(H5Aget_type(attribute), H5Tclose);
     const Handle space(H5Aget_space(attribute), H5Sclose);
@@ -54,15 +53,13 @@ double Group::number(const std::string& name) const {
 }
 
 double Group::number_or(const std::string& name, double otherwise) const {
-    if (!has_attribute(name))
-        return otherwise;
+    if (!has_attribute(name)) return otherwise;
     const auto values = numbers(name);
     return values.empty() ? otherwise : values[0];
 }
 
 std::optional<std::string> Group::text(const std::string& name) const {
-    if (!has_attribute(name))
-        return std::nullopt;
+    if (!has_attribute(name)) return std::nullopt;
     const Handle attribute(H5Aopen(group_, name.c_str(), H5P_DEFAULT), H5Aclose);
     const Handle type(H5Aget_type(attribute), H5Tclose);
     const Handle space(H5Aget_space(attribute), H5Sclose);
@@ -70,15 +67,13 @@ std::optional<std::string> Group::text(const std::string& name) const {
         return std::nullopt;
     if (H5Tis_variable_str(type) > 0) {
         char* data = nullptr;
-        if (H5Aread(attribute, type, &data) < 0)
-            return std::nullopt;
+        if (H5Aread(attribute, type, &data) < 0) return std::nullopt;
         std::string text = data ? data : "";
         H5Dvlen_reclaim(type, space, H5P_DEFAULT, &data);
         return text;
     }
     std::string text(H5Tget_size(type), '\0');
-    if (H5Aread(attribute, type, text.data()) < 0)
-        return std::nullopt;
+    if (H5Aread(attribute, type, text.data()) < 0) return std::nullopt;
     text.resize(std::min(text.find('\0'), text.size()));
     text.erase(text.find_last_not_of(' ') + 1);
     return text;
@@ -101,13 +96,12 @@ void Group::set(const std::string& name, const std::string& text) {
 
 void Group::set(const std::string& name, const std::vector<std::string>& texts) {
     std::vector<const char*> data;
-    for (const auto& text : texts)
-        data.push_back(text.c_str());
+    for (const auto& text : texts) data.push_back(text.c_str());
     set_raw(name, string_type(), data.data(), static_cast<Offset>(data.size()), false);
 }
 
 void Group::set_on(const std::string& name, const std::string& attribute, const std::string& text) {
-    Group as_group; // attributes of datasets and groups are made alike
+    Group as_group;  // attributes of datasets and groups are made alike
     as_group.file_ = file_;
     as_group.file_name_ = file_name_;
     as_group.path_ = path_ + "/" + name;
@@ -115,4 +109,4 @@ void Group::set_on(const std::string& name, const std::string& attribute, const 
     as_group.set(attribute, text);
 }
 
-} // namespace connectivity::hdf5
+}  // namespace connectivity::hdf5

@@ -7,11 +7,9 @@
 namespace connectivity::hdf5 {
 
 Handle Group::dataset(const std::string& name) const {
-    if (!has_dataset(name))
-        fail(Status::format, {}, fmt::format("lacks the dataset {}", name));
+    if (!has_dataset(name)) fail(Status::format, {}, fmt::format("lacks the dataset {}", name));
     Handle handle(H5Dopen2(group_, name.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!handle.valid())
-        fail_io(name, "cannot open");
+    if (!handle.valid()) fail_io(name, "cannot open");
     return handle;
 }
 
@@ -23,8 +21,7 @@ Shape Group::shape(const std::string& name) const {
         fail(Status::format, name, "does not hold numbers");
     const Handle space(H5Dget_space(data), H5Sclose);
     const int rank = H5Sget_simple_extent_ndims(space);
-    if (rank < 0)
-        fail_io(name, "cannot read the shape of");
+    if (rank < 0) fail_io(name, "cannot read the shape of");
     std::vector<hsize_t> extents(static_cast<std::size_t>(rank));
     H5Sget_simple_extent_dims(space, extents.data(), nullptr);
     return {extents.begin(), extents.end()};
@@ -55,8 +52,7 @@ void Group::read_raw(const std::string& name, hid_t type, void* out, Offset n,
         fail(Status::format, name,
              fmt::format("has shape {}, must be {}", text_of(found),
                          columns == 1 ? text_of({n}) : text_of({n, columns})));
-    if (n == 0)
-        return;
+    if (n == 0) return;
     const Handle data = dataset(name);
     const Handle space(H5Dget_space(data), H5Sclose);
     const hsize_t start[2] = {0, 0};
@@ -74,14 +70,12 @@ void Group::create_raw(const std::string& name, hid_t type, const Shape& shape) 
     const Handle data(
         H5Dcreate2(group_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
         H5Dclose);
-    if (!data.valid())
-        fail_io(name, "cannot write");
+    if (!data.valid()) fail_io(name, "cannot write");
 }
 
 void Group::write_raw(const std::string& name, hid_t type, const void* source, Offset first,
                       Offset count) {
-    if (count == 0)
-        return;
+    if (count == 0) return;
     const Handle data = dataset(name);
     const Handle space(H5Dget_space(data), H5Sclose);
     const Shape whole = shape(name);
@@ -96,4 +90,4 @@ void Group::write_raw(const std::string& name, hid_t type, const void* source, O
         fail_io(name, "cannot write");
 }
 
-} // namespace connectivity::hdf5
+}  // namespace connectivity::hdf5

@@ -15,9 +15,7 @@ namespace io {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& text) {
-    throw Error(Status::format, text);
-}
+[[noreturn]] void fail(const std::string& text) { throw Error(Status::format, text); }
 
 /// An attribute that is a whole number in [low, high].
 Offset whole_number(const hdf5::Group& group, const std::string& name, Offset low, Offset high) {
@@ -37,8 +35,7 @@ public:
         info_.dim = static_cast<int>(whole_number(root, "dim", 1, 3));
         read_contents();
         read_extents(root, options.kernel_extent);
-        if (!options.open && root.has_attribute("periodic"))
-            read_domain(root);
+        if (!options.open && root.has_attribute("periodic")) read_domain(root);
     }
 
     const SnapshotInfo& info() const override { return info_; }
@@ -57,8 +54,7 @@ private:
 
 ListInfo NodeFile::read_entry(const std::string& name) const {
     const auto group = lists_.group(name);
-    if (!group.has_dataset("positions"))
-        fail(group.where() + " has no positions");
+    if (!group.has_dataset("positions")) fail(group.where() + " has no positions");
     const auto shape = group.shape("positions");
     if (shape.size() != 2 || shape[1] != info_.dim)
         fail(fmt::format("{} has shape {}, must be [n, {}]", group.where("positions"),
@@ -73,8 +69,7 @@ ListInfo NodeFile::read_entry(const std::string& name) const {
 /// Lists stand in the order of their attribute `order`, a permutation of 0 ... n_lists - 1.
 void NodeFile::read_contents() {
     const auto names = lists_.members();
-    if (names.empty())
-        fail(lists_.where() + " is empty");
+    if (names.empty()) fail(lists_.where() + " is empty");
     const auto n_lists = static_cast<Offset>(names.size());
     info_.lists.resize(names.size());
     for (const auto& name : names) {
@@ -90,8 +85,7 @@ void NodeFile::read_contents() {
 
 void NodeFile::read_extents(const hdf5::Group& root, std::optional<double> instead) {
     extents_ = instead ? std::vector<double>{*instead} : root.numbers("kernel_extent");
-    if (extents_.size() == 1)
-        extents_.resize(info_.lists.size(), extents_[0]);
+    if (extents_.size() == 1) extents_.resize(info_.lists.size(), extents_[0]);
     if (extents_.size() != info_.lists.size())
         fail(fmt::format("{}: kernel_extent has {} values, must have 1 or {}", root.where(),
                          extents_.size(), info_.lists.size()));
@@ -109,8 +103,7 @@ void NodeFile::read_domain(const hdf5::Group& root) {
                 fmt::format("{}: periodic[{}] = {}, must be 0 or 1", root.where(), d, periodic[d]));
         info_.domain.periodic[d] = periodic[d] == 1;
     }
-    if (!info_.domain.any_periodic(info_.dim))
-        return;
+    if (!info_.domain.any_periodic(info_.dim)) return;
     const auto lo = root.numbers("box_lo"), hi = root.numbers("box_hi");
     if (lo.size() != n || hi.size() != n)
         fail(fmt::format("{}: box_lo and box_hi have {} and {} values, must have {}", root.where(),
@@ -137,8 +130,7 @@ ListData NodeFile::read(const std::string& list, const FieldRequest& fields) {
         return NodeList::with_H(list, info_.dim, entry.n_internal, positions, H, extents_[k]);
     };
     ListData data{nodes()};
-    if (fields.mass && entry.has_mass)
-        data.mass = read_field(group, "mass", n);
+    if (fields.mass && entry.has_mass) data.mass = read_field(group, "mass", n);
     if (fields.softening && group.has_dataset("softening"))
         data.softening = read_field(group, "softening", n);
     if (fields.global_id && group.has_dataset("global_id"))
@@ -150,8 +142,7 @@ void write_list(hdf5::Group group, const ListData& list, Offset order) {
     const auto& nodes = list.nodes;
     const Offset n = nodes.n(), dim = nodes.dim();
     const auto optional = [&](const char* name, const auto& values) {
-        if (values.size() == 0)
-            return;
+        if (values.size() == 0) return;
         if (static_cast<Offset>(values.size()) != n)
             throw Error(Status::argument,
                         fmt::format("node list '{}': {} has {} values, must have {}", nodes.name(),
@@ -171,31 +162,27 @@ void write_list(hdf5::Group group, const ListData& list, Offset order) {
 }
 
 void write_domain(hdf5::Group& root, const Domain& domain, int dim) {
-    if (!domain.any_periodic(dim))
-        return;
+    if (!domain.any_periodic(dim)) return;
     root.set("periodic",
              std::vector<std::int32_t>(domain.periodic.begin(), domain.periodic.begin() + dim));
     root.set("box_lo", std::vector<double>(domain.lo.begin(), domain.lo.begin() + dim));
     root.set("box_hi", std::vector<double>(domain.hi.begin(), domain.hi.begin() + dim));
 }
 
-} // namespace
+}  // namespace
 
-bool is_node_file(const hdf5::Group& root) {
-    return root.has_group("node_lists");
-}
+bool is_node_file(const hdf5::Group& root) { return root.has_group("node_lists"); }
 
 std::unique_ptr<SnapshotReader> open_node_file(hdf5::Group root, SnapshotInfo info,
                                                const ReadOptions& options) {
     return std::make_unique<NodeFile>(root, std::move(info), options);
 }
 
-} // namespace io
+}  // namespace io
 
 void write_node_file(const std::string& path, std::span<const ListData> lists, const Domain& domain,
                      const std::string& command) {
-    if (lists.empty())
-        throw Error(Status::argument, "a node file needs at least one node list");
+    if (lists.empty()) throw Error(Status::argument, "a node file needs at least one node list");
     const int dim = lists[0].nodes.dim();
     std::vector<double> extents;
     for (const auto& list : lists) {
@@ -211,8 +198,7 @@ void write_node_file(const std::string& path, std::span<const ListData> lists, c
         root.set<std::int32_t>("dim", dim);
         root.set("kernel_extent", extents);
         io::write_domain(root, domain, dim);
-        if (!command.empty())
-            root.set("command", command);
+        if (!command.empty()) root.set("command", command);
         auto group = root.create_group("node_lists");
         for (std::size_t k = 0; k < lists.size(); ++k)
             io::write_list(group.create_group(lists[k].nodes.name()), lists[k],
@@ -222,4 +208,4 @@ void write_node_file(const std::string& path, std::span<const ListData> lists, c
     file.commit();
 }
 
-} // namespace connectivity
+}  // namespace connectivity

@@ -29,8 +29,7 @@ bool is_type_name(const std::string& name) {
 std::vector<std::string> type_names(const hdf5::Group& root) {
     std::vector<std::string> names;
     for (const auto& name : root.members())
-        if (is_type_name(name) && root.has_group(name))
-            names.push_back(name);
+        if (is_type_name(name) && root.has_group(name)) names.push_back(name);
     return names;
 }
 
@@ -38,8 +37,7 @@ bool is_swift(const hdf5::Group& root) {
     if (root.has_group("Code") && root.group("Code").text("Code").value_or("") == "SWIFT")
         return true;
     for (const auto& name : type_names(root))
-        if (root.group(name).has_dataset(swift_names.h))
-            return true;
+        if (root.group(name).has_dataset(swift_names.h)) return true;
     return false;
 }
 
@@ -56,22 +54,21 @@ double swift_gamma(const std::string& kernel, int dim) {
                                {"Wendland C4", {0, 2.171239, 2.207940}},
                                {"Wendland C6", {0, 2.415230, 2.449490}}};
     for (const auto& entry : table)
-        if (kernel == entry.name)
-            return entry.gamma[dim - 1];
+        if (kernel == entry.name) return entry.gamma[dim - 1];
     return 0;
 }
 
 class ParticleTypes : public SnapshotReader {
 public:
     ParticleTypes(hdf5::Group root, SnapshotInfo info, const ReadOptions& options)
-        : root_(std::move(root)), info_(std::move(info)), swift_(is_swift(root_)),
+        : root_(std::move(root)),
+          info_(std::move(info)),
+          swift_(is_swift(root_)),
           names_(swift_ ? swift_names : gadget_names) {
         info_.format = swift_ ? "SWIFT" : "GADGET";
-        if (root_.has_group("Header"))
-            read_header();
+        if (root_.has_group("Header")) read_header();
         read_dim();
-        if (!options.open)
-            read_domain();
+        if (!options.open) read_domain();
         read_units();
         read_contents();
         extent_ = options.kernel_extent ? *options.kernel_extent : (swift_ ? swift_extent() : 1.0);
@@ -125,10 +122,8 @@ void ParticleTypes::read_dim() {
     double dim = 3;
     if (root_.has_group("Config")) {
         const auto config = root_.group("Config");
-        if (config.has_attribute("TWODIMS"))
-            dim = 2;
-        if (config.has_attribute("ONEDIMS"))
-            dim = 1;
+        if (config.has_attribute("TWODIMS")) dim = 2;
+        if (config.has_attribute("ONEDIMS")) dim = 1;
     }
     if (swift_ && root_.has_group("Header"))
         dim = root_.group("Header").number_or("Dimension", dim);
@@ -141,8 +136,7 @@ void ParticleTypes::read_dim() {
 bool ParticleTypes::is_periodic() const {
     if (swift_ && root_.has_group("Parameters")) {
         const auto periodic = root_.group("Parameters").text("InitialConditions:periodic");
-        if (periodic)
-            return *periodic != "0";
+        if (periodic) return *periodic != "0";
     }
     if (!swift_ && root_.has_group("Config"))
         return root_.group("Config").has_attribute("PERIODIC");
@@ -151,8 +145,7 @@ bool ParticleTypes::is_periodic() const {
 
 /// A periodic box begins at 0. GADGET may stretch the axes of its cube at compile time.
 void ParticleTypes::read_domain() {
-    if (!is_periodic())
-        return;
+    if (!is_periodic()) return;
     const auto n = box_size_.size();
     if (n != 1 && n < static_cast<std::size_t>(info_.dim))
         throw Error(
@@ -225,8 +218,7 @@ double ParticleTypes::swift_extent() {
         kernel = root_.group("HydroScheme").text("Kernel function").value_or("");
     info_.detail = kernel;
     const double gamma = swift_gamma(kernel, info_.dim);
-    if (gamma > 0)
-        return gamma;
+    if (gamma > 0) return gamma;
     throw Error(
         Status::format,
         fmt::format(
@@ -237,8 +229,7 @@ double ParticleTypes::swift_extent() {
 
 ConstView<double> ParticleTypes::read_mass(const hdf5::Group& group, const std::string& type,
                                            Offset n) const {
-    if (group.has_dataset(names_.mass))
-        return read_field(group, names_.mass, n);
+    if (group.has_dataset(names_.mass)) return read_field(group, names_.mass, n);
     if (swift_ && group.has_dataset("DynamicalMasses"))
         return read_field(group, "DynamicalMasses", n);
     auto mass = allocate<double>("io/mass", n);
@@ -251,13 +242,11 @@ ListData ParticleTypes::read(const std::string& list, const FieldRequest& fields
     const auto group = root_.group(list);
     const Offset n = entry.n;
     auto positions = allocate<double>("io/positions", n * info_.dim);
-    if (n > 0)
-        group.read("Coordinates", positions.data(), n, info_.dim);
+    if (n > 0) group.read("Coordinates", positions.data(), n, info_.dim);
     const ConstView<double> h =
         entry.has_support ? read_field(group, names_.h, n) : allocate_zeroed<double>("io/h", n);
     ListData data{NodeList::with_h(list, info_.dim, n, positions, h, extent_)};
-    if (fields.mass && entry.has_mass)
-        data.mass = read_mass(group, list, n);
+    if (fields.mass && entry.has_mass) data.mass = read_mass(group, list, n);
     if (fields.density && group.has_dataset(names_.density))
         data.density = read_field(group, names_.density, n);
     if (fields.global_id && group.has_dataset("ParticleIDs"))
@@ -265,15 +254,13 @@ ListData ParticleTypes::read(const std::string& list, const FieldRequest& fields
     return data;
 }
 
-} // namespace
+}  // namespace
 
-bool is_particle_type_file(const hdf5::Group& root) {
-    return !type_names(root).empty();
-}
+bool is_particle_type_file(const hdf5::Group& root) { return !type_names(root).empty(); }
 
 std::unique_ptr<SnapshotReader> open_particle_types(hdf5::Group root, SnapshotInfo info,
                                                     const ReadOptions& options) {
     return std::make_unique<ParticleTypes>(std::move(root), std::move(info), options);
 }
 
-} // namespace connectivity::io
+}  // namespace connectivity::io

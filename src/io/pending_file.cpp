@@ -19,15 +19,13 @@ namespace {
     throw Error(Status::file, fmt::format("cannot write '{}': {}", path, why));
 }
 
-} // namespace
+}  // namespace
 
 PendingFile::PendingFile(std::string path) : path_(std::move(path)) {
     namespace fs = std::filesystem;
     std::error_code code;
-    if (path_.empty())
-        fail(path_, "the name is empty");
-    if (fs::is_directory(path_, code))
-        fail(path_, "it is a folder");
+    if (path_.empty()) fail(path_, "the name is empty");
+    if (fs::is_directory(path_, code)) fail(path_, "it is a folder");
     const fs::path parent = fs::path(path_).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
     if (!fs::is_directory(folder, code))
@@ -39,16 +37,14 @@ PendingFile::PendingFile(std::string path) : path_(std::move(path)) {
 
 PendingFile::~PendingFile() {
     std::error_code ignored;
-    if (!committed_)
-        std::filesystem::remove(temporary_, ignored);
+    if (!committed_) std::filesystem::remove(temporary_, ignored);
 }
 
 void PendingFile::commit() {
     std::error_code code;
     std::filesystem::rename(temporary_, path_, code);
-    if (code)
-        fail(path_, code.message());
+    if (code) fail(path_, code.message());
     committed_ = true;
 }
 
-} // namespace connectivity
+}  // namespace connectivity

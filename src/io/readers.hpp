@@ -11,7 +11,7 @@
 
 namespace connectivity::io {
 
-bool is_particle_type_file(const hdf5::Group& root); ///< GADGET or SWIFT
+bool is_particle_type_file(const hdf5::Group& root);  ///< GADGET or SWIFT
 bool is_h5part_file(const hdf5::Group& root);
 bool is_node_file(const hdf5::Group& root);
 
@@ -31,4 +31,4 @@ ConstView<double> read_field(const hdf5::Group& group, const std::string& name, 
 /// Reads n node numbers. Throws Error{format} if one does not fit 63 bits.
 ConstView<std::int64_t> read_ids(const hdf5::Group& group, const std::string& name, Offset n);
 
-} // namespace connectivity::io
+}  // namespace connectivity::io

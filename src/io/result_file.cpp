@@ -12,7 +12,7 @@ namespace connectivity {
 struct ResultFile::State {
     explicit State(const std::string& path)
         : file(path), root(hdf5::Group::create_file(file.temporary())) {}
-    PendingFile file; // before root: HDF5 closes the file before it is removed
+    PendingFile file;  // before root: HDF5 closes the file before it is removed
     std::optional<hdf5::Group> root;
 };
 
@@ -34,15 +34,14 @@ void write_pairs(hdf5::Group group, const NodePairList::View<>& pairs) {
     for (Offset first = 0; first < n; first += piece) {
         const Offset count = std::min(piece, n - first);
         for (Offset k = 0; k < count; ++k) {
-            while (pairs.offsets(slot + 1) <= first + k)
-                ++slot;
+            while (pairs.offsets(slot + 1) <= first + k) ++slot;
             buffer[static_cast<std::size_t>(k)] = static_cast<Slot>(slot);
         }
         group.write_part("i", buffer.data(), first, count);
     }
 }
 
-} // namespace
+}  // namespace
 
 ResultFile::ResultFile(const std::string& path) : state_(std::make_unique<State>(path)) {}
 ResultFile::~ResultFile() = default;
@@ -53,8 +52,7 @@ void ResultFile::write(const ConnectivityMap& map, std::span<const NodeList> lis
     write_rows(root.create_group("rows"), map.rows());
     write_pairs(root.create_group("pairs"), map.pairs().view());
     std::vector<std::int64_t> n_internal;
-    for (const auto& list : lists)
-        n_internal.push_back(list.n_internal());
+    for (const auto& list : lists) n_internal.push_back(list.n_internal());
     root.set("list_offset", map.layout().list_offset());
     root.set("row_offset", map.layout().row_offset());
     root.set("list_names", map.list_names());
@@ -78,4 +76,4 @@ void ResultFile::commit() {
     state_->file.commit();
 }
 
-} // namespace connectivity
+}  // namespace connectivity

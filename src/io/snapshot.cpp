@@ -17,12 +17,11 @@ namespace {
 
 std::vector<std::string> names_of(const SnapshotInfo& info) {
     std::vector<std::string> names;
-    for (const auto& list : info.lists)
-        names.push_back(list.name);
+    for (const auto& list : info.lists) names.push_back(list.name);
     return names;
 }
 
-} // namespace
+}  // namespace
 
 std::unique_ptr<SnapshotReader> open_snapshot(const std::string& path, const ReadOptions& options) {
     start_runtime();
@@ -35,8 +34,7 @@ std::unique_ptr<SnapshotReader> open_snapshot(const std::string& path, const Rea
                     fmt::format("'{}' has no steps: a step can be chosen in H5Part files", path));
     if (io::is_node_file(root))
         return io::open_node_file(std::move(root), std::move(info), options);
-    if (h5part)
-        return io::open_h5part(std::move(root), std::move(info), options);
+    if (h5part) return io::open_h5part(std::move(root), std::move(info), options);
     if (io::is_particle_type_file(root))
         return io::open_particle_types(std::move(root), std::move(info), options);
     throw Error(
@@ -54,17 +52,21 @@ std::vector<std::string> select_lists(const SnapshotInfo& info,
         if (std::find(asked.begin(), name, *name) != name)
             throw Error(Status::argument, fmt::format("list '{}' is named twice", *name));
     }
-    if (!asked.empty())
-        return asked;
+    if (!asked.empty()) return asked;
     std::vector<std::string> with_support;
     for (const auto& list : info.lists)
-        if (list.has_support)
-            with_support.push_back(list.name);
+        if (list.has_support) with_support.push_back(list.name);
     if (with_support.empty())
         throw Error(Status::format,
                     fmt::format("'{}': no list has smoothing lengths (there are: {})", info.path,
                                 fmt::join(names_of(info), ", ")));
     return with_support;
+}
+
+std::string file_library() {
+    unsigned major = 0, minor = 0, release = 0;
+    H5get_libversion(&major, &minor, &release);
+    return fmt::format("HDF5 {}.{}.{}", major, minor, release);
 }
 
 namespace io {
@@ -102,5 +104,5 @@ ConstView<std::int64_t> read_ids(const hdf5::Group& group, const std::string& na
     return ids;
 }
 
-} // namespace io
-} // namespace connectivity
+}  // namespace io
+}  // namespace connectivity

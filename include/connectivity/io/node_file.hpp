@@ -21,4 +21,4 @@ namespace connectivity {
 void write_node_file(const std::string& path, std::span<const ListData> lists, const Domain& domain,
                      const std::string& command);
 
-} // namespace connectivity
+}  // namespace connectivity

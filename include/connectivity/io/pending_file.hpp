@@ -13,12 +13,12 @@ public:
     /// Throws Error{file} if the folder of `path` does not exist or cannot be written to, or `path`
     /// is a folder.
     explicit PendingFile(std::string path);
-    ~PendingFile(); ///< removes what was not committed
+    ~PendingFile();  ///< removes what was not committed
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
 
     const std::string& path() const { return path_; }
-    const std::string& temporary() const { return temporary_; } ///< write here
+    const std::string& temporary() const { return temporary_; }  ///< write here
 
     /// Puts the file in its place. Throws Error{file}.
     void commit();
@@ -28,4 +28,4 @@ private:
     bool committed_ = false;
 };
 
-} // namespace connectivity
+}  // namespace connectivity

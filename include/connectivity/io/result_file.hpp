@@ -22,7 +22,7 @@ public:
     /// Opens a temporary file beside `path` at once, so that a bad place is found before the work
     /// and not after. Throws Error{file}.
     explicit ResultFile(const std::string& path);
-    ~ResultFile(); ///< removes what was not committed
+    ~ResultFile();  ///< removes what was not committed
 
     /// Rows, pairs and attributes. n_internal of each list is taken from `lists`. Pairs are written
     /// in pieces: the i array is never held whole. Throws Error: file (the disk is full, say),
@@ -42,4 +42,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-} // namespace connectivity
+}  // namespace connectivity

@@ -22,8 +22,8 @@ namespace connectivity {
 struct Units {
     double length_cm = 0;
     double mass_g = 0;
-    bool per_h = false;    ///< lengths and masses are given in units of 1/h (h: Hubble parameter)
-    bool comoving = false; ///< lengths are comoving
+    bool per_h = false;     ///< lengths and masses are given in units of 1/h (h: Hubble parameter)
+    bool comoving = false;  ///< lengths are comoving
 
     bool known() const { return length_cm > 0 && mass_g > 0; }
 };
@@ -33,18 +33,18 @@ struct ListInfo {
     std::string name;
     Offset n = 0, n_internal = 0;
     bool has_support =
-        false; ///< smoothing lengths or tensors; without them nodes take part with h = 0
+        false;  ///< smoothing lengths or tensors; without them nodes take part with h = 0
     bool has_mass = false;
 };
 
 struct SnapshotInfo {
     std::string path;
-    std::string format; ///< "GADGET", "SWIFT", "H5Part", "node file"
-    std::string detail; ///< which step, which kernel; may be empty
+    std::string format;  ///< "GADGET", "SWIFT", "H5Part", "node file"
+    std::string detail;  ///< which step, which kernel; may be empty
     int dim = 3;
     Domain domain;
     Units units;
-    std::vector<ListInfo> lists; ///< in the order of the file
+    std::vector<ListInfo> lists;  ///< in the order of the file
 };
 
 /// Arrays beyond positions and supports that a caller wants, where the file has them.
@@ -56,10 +56,10 @@ struct FieldRequest {
 /// empty.
 struct ListData {
     NodeList nodes;
-    ConstView<double> mass = {};            ///< [n]
-    ConstView<double> density = {};         ///< [n], as another code computed it
-    ConstView<double> softening = {};       ///< [n]
-    ConstView<std::int64_t> global_id = {}; ///< [n]
+    ConstView<double> mass = {};             ///< [n]
+    ConstView<double> density = {};          ///< [n], as another code computed it
+    ConstView<double> softening = {};        ///< [n]
+    ConstView<std::int64_t> global_id = {};  ///< [n]
 };
 
 class SnapshotReader {
@@ -74,9 +74,9 @@ public:
 };
 
 struct ReadOptions {
-    std::optional<double> kernel_extent; ///< instead of what the format says, for all lists
-    std::optional<Offset> step;          ///< H5Part: number of the step; the last unless told
-    bool open = false;                   ///< no periodic axis, whatever the file says
+    std::optional<double> kernel_extent;  ///< instead of what the format says, for all lists
+    std::optional<Offset> step;           ///< H5Part: number of the step; the last unless told
+    bool open = false;                    ///< no periodic axis, whatever the file says
 };
 
 /// Opens a GADGET, SWIFT, H5Part or node file, whichever it is. Starts the runtime if nobody did.
@@ -90,4 +90,7 @@ std::unique_ptr<SnapshotReader> open_snapshot(const std::string& path,
 std::vector<std::string> select_lists(const SnapshotInfo& info,
                                       const std::vector<std::string>& asked);
 
-} // namespace connectivity
+/// "HDF5 1.10.8" and the like.
+std::string file_library();
+
+}  // namespace connectivity
