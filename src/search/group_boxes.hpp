@@ -40,7 +40,8 @@ struct ReachBox {
     bool empty() const { return !(lo[0] <= hi[0]); }
 };
 
-/// May nodes of a and b interact? The sum runs over the axes in the order of the predicate.
+/// May nodes of a and b interact? The sum runs over the axes in the order of the predicate. Boxes that touch always may:
+/// a node that sees nobody must still find itself.
 template <int Dim>
 inline bool is_near(const ReachBox<Dim>& a, const ReachBox<Dim>& b, double slack) {
     double sum = 0;
@@ -48,7 +49,7 @@ inline bool is_near(const ReachBox<Dim>& a, const ReachBox<Dim>& b, double slack
         const double gap = std::max(std::max(b.lo[d] - a.hi[d], a.lo[d] - b.hi[d]) - slack, 0.0);
         sum += gap * gap;
     }
-    return sum <= std::max(a.reach2, b.reach2);
+    return sum <= std::max({a.reach2, b.reach2, 0.0});
 }
 
 template <int Dim>
