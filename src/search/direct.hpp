@@ -20,9 +20,8 @@ public:
 
     void run(Products products) {
         count();
-        products.prepare({request_.rows ? row_counts_.data() : nullptr,
-                          request_.half_rows ? half_counts_.data() : nullptr},
-                         layout_, request_.budget);
+        products.prepare({request_.rows, request_.half_rows, row_counts_.data(), half_counts_.data()}, layout_,
+                         request_.budget);
         if (request_.rows) fill_rows(products.rows);
         if (request_.half_rows) fill_halves(products.halves);
     }

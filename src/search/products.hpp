@@ -13,8 +13,9 @@ namespace connectivity::detail {
 
 /// What a search counted: entries by row and target list, and partners after each slot.
 struct Counts {
-    const Slot* rows = nullptr;    ///< [n_rows * n_lists]; nullptr if rows are not asked for
-    const Slot* halves = nullptr;  ///< [n_slots]; nullptr if half rows are not asked for
+    bool has_rows, has_halves;  ///< what was asked for; of zero nodes even a null pointer tells all counts
+    const Slot* rows;           ///< [n_rows * n_lists]
+    const Slot* halves;         ///< [n_slots]
 };
 
 /// The two lists that a search fills.

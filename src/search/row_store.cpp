@@ -98,7 +98,7 @@ void RowStore::record(Slot slot, const Slot* first, int n, int later) {
 
 Counts RowStore::counts() const {
     const bool several = layout_->n_lists() > 1;
-    return {rows_ ? (several ? by_list_.data() : length_.data()) : nullptr, halves_ ? later_.data() : nullptr};
+    return {rows_, halves_, several ? by_list_.data() : length_.data(), later_.data()};
 }
 
 /// Copies the ends of arena rows, in slot order, into consecutive values.
