@@ -10,6 +10,15 @@ namespace connectivity::capi {
 namespace {
 void lock_calls() { call_mutex().lock(); }
 void unlock_calls() { call_mutex().unlock(); }
+
+bool is_forked() {
+    try {
+        require_runtime();
+        return false;
+    } catch (const Error& e) {
+        return e.status() == Status::forked;
+    }
+}
 }  // namespace
 
 Registry& Registry::instance() {
@@ -33,6 +42,14 @@ Handle* Registry::find(const void* pointer, const std::string& name) const {
     if (found != live_.end()) return found->second.get();
     throw Error(Status::handle,
                 name + " is not a live handle: destroyed, or never made by this library");
+}
+
+// Kokkos destroys elements of Views in a kernel, which has no threads to run in after a fork: there
+// the memory is left to the end of the process.
+void Registry::remove(const void* pointer) {
+    const auto found = live_.find(pointer);
+    if (is_forked()) found->second.release();
+    live_.erase(found);
 }
 
 void Registry::drop_all() noexcept {

@@ -53,12 +53,13 @@ public:
     template <class T>
     void destroy(T** pointer, const std::string& name) {
         if (pointer == nullptr || *pointer == nullptr) return;
-        live_.erase(&get<T>(*pointer, name));
+        remove(&get<T>(*pointer, name));
         *pointer = nullptr;
     }
 
 private:
     Handle* find(const void* pointer, const std::string& name) const;
+    void remove(const void* pointer);
     void drop_all() noexcept;
 
     std::unordered_map<const void*, std::unique_ptr<Handle>> live_;

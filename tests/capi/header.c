@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Compiled as C99, C11 and C++17 with every warning an error: the header alone is enough. */
+#include <connectivity.h>
+
+int main(void) {
+    conn_context_options context = CONN_CONTEXT_OPTIONS_INIT;
+    conn_map_options map = CONN_MAP_OPTIONS_INIT;
+    conn_map_info info = CONN_MAP_INFO_INIT;
+    conn_rows_view rows = CONN_ROWS_VIEW_INIT;
+    conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
+    conn_report_entry entry = CONN_REPORT_ENTRY_INIT;
+    const double x[4] = {0, 1, 2, 3};
+    const conn_array vector = conn_array_vector(x, 4), matrix = conn_array_matrix(x, 2, 2);
+    const int ok = context.device_id == -1 && map.mode == CONN_GATHER_SCATTER && map.rows == 1 &&
+                   map.pairs == 1 && info.struct_size == sizeof info && rows.owner == NULL &&
+                   pairs.owner == NULL && entry.struct_size == sizeof entry &&
+                   vector.extent[0] == 4 && matrix.stride[0] == 2 && matrix.stride[1] == 1 &&
+                   conn_version() == CONN_VERSION && CONN_OK == 0;
+    return ok ? 0 : 1;
+}

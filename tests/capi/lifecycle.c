@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The life of the library in a process, one mode a run, since Kokkos starts once in a process:
+ *   quiet          nothing is printed
+ *   abandon        the process ends with live handles and views
+ *   shutdown       everything may be destroyed late; later calls say so
+ *   fork N         the child of a process with N threads
+ *   parallel       calls from inside the host's own OpenMP region
+ * Exit status 0, or the number of the line that failed modulo 256. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <connectivity.h>
+
+enum { side = 12, n = side * side, n_pairs = 2 * side * (side - 1) };
+
+#define REQUIRE(condition)                                                \
+    do {                                                                  \
+        if (!(condition)) exit(__LINE__ % 256 == 0 ? 1 : __LINE__ % 256); \
+    } while (0)
+
+typedef struct host {
+    conn_context* context;
+    conn_nodes* nodes;
+    conn_map* map;
+    conn_pairs_view pairs;
+} host;
+
+/* A square lattice of spacing 1 with supports of 1.2. */
+static conn_status set_nodes(host* h) {
+    double x[n][2];
+    const double length = 0.6;
+    for (int i = 0; i < n; ++i) x[i][0] = i % side, x[i][1] = i / side;
+    const conn_array positions = conn_array_matrix(&x[0][0], n, 2);
+    conn_array lengths = conn_array_vector(&length, n);
+    lengths.stride[0] = 0;
+    return conn_nodes_set_h(h->nodes, n, &positions, 1, &lengths);
+}
+
+static conn_status rebuild(host* h) {
+    conn_nodes* lists[] = {h->nodes};
+    return conn_map_rebuild(h->map, lists, 1);
+}
+
+static host start(int n_threads) {
+    host h = {NULL, NULL, NULL, CONN_PAIRS_VIEW_INIT};
+    conn_context_options options = CONN_CONTEXT_OPTIONS_INIT;
+    options.n_threads = n_threads;
+    REQUIRE(conn_context_create(&options, &h.context) == CONN_OK);
+    REQUIRE(conn_nodes_create(h.context, "lattice", 2, 2.0, &h.nodes) == CONN_OK);
+    REQUIRE(conn_map_create(h.context, NULL, &h.map) == CONN_OK);
+    REQUIRE(set_nodes(&h) == CONN_OK);
+    REQUIRE(rebuild(&h) == CONN_OK);
+    REQUIRE(conn_map_pairs_acquire(h.map, CONN_SPACE_HOST, 0, &h.pairs) == CONN_OK);
+    REQUIRE(h.pairs.n_pairs == n_pairs);
+    return h;
+}
+
+static void finish(host* h) {
+    REQUIRE(conn_map_pairs_release(&h->pairs) == CONN_OK && h->pairs.j == NULL);
+    REQUIRE(conn_map_destroy(&h->map) == CONN_OK && h->map == NULL);
+    REQUIRE(conn_nodes_destroy(&h->nodes) == CONN_OK && h->nodes == NULL);
+    REQUIRE(conn_context_destroy(&h->context) == CONN_OK && h->context == NULL);
+}
+
+/* Every kind of call says the same. */
+static void require_all(host* h, conn_status expected) {
+    uint64_t generation = 0;
+    conn_context* context = NULL;
+    conn_map* map = NULL;
+    conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
+    REQUIRE(conn_context_create(NULL, &context) == expected && context == NULL);
+    REQUIRE(conn_map_create(h->context, NULL, &map) == expected && map == NULL);
+    REQUIRE(set_nodes(h) == expected);
+    REQUIRE(rebuild(h) == expected);
+    REQUIRE(strstr(conn_last_error(), "conn_map_rebuild: ") != NULL);
+    REQUIRE(conn_map_generation(h->map, &generation) == expected);
+    REQUIRE(conn_map_pairs_acquire(h->map, CONN_SPACE_HOST, 0, &pairs) == expected);
+}
+
+static void late_destroy(void) {
+    REQUIRE(conn_shutdown() == CONN_OK); /* nothing was started: nothing to stop */
+    host h = start(2);
+    REQUIRE(conn_shutdown() == CONN_OK);
+    require_all(&h, CONN_E_FINALIZED);
+    REQUIRE(conn_shutdown() == CONN_OK);
+    finish(&h);
+}
+
+static void child(host* h, int n_threads) {
+    if (n_threads == 1) {
+        REQUIRE(rebuild(h) == CONN_OK);
+        finish(h);
+        _exit(0);
+    }
+    require_all(h, CONN_E_FORKED);
+    REQUIRE(conn_shutdown() == CONN_E_FORKED);
+    finish(h);
+    _exit(0);
+}
+
+static void fork_with(int n_threads) {
+    host h = start(n_threads);
+    const pid_t pid = fork();
+    REQUIRE(pid >= 0);
+    if (pid == 0) {
+        alarm(20); /* a kernel that waits for lost threads would wait for ever */
+        child(&h, n_threads);
+    }
+    int status = -1;
+    REQUIRE(waitpid(pid, &status, 0) == pid && WIFEXITED(status));
+    if (WEXITSTATUS(status) != 0) exit(WEXITSTATUS(status));
+    REQUIRE(rebuild(&h) == CONN_OK);
+    finish(&h);
+}
+
+static void parallel(void) {
+    int n_right = 0;
+#pragma omp parallel num_threads(3) reduction(+ : n_right)
+    for (int k = 0; k < 5; ++k) {
+        host h = start(0);
+        ++n_right;
+        finish(&h);
+    }
+    REQUIRE(n_right >= 5 && n_right % 5 == 0);
+    host h = start(0);
+    finish(&h);
+}
+
+int main(int argc, char** argv) {
+    const char* mode = argc > 1 ? argv[1] : "";
+    if (strcmp(mode, "quiet") == 0) {
+        host h = start(2);
+        finish(&h);
+    } else if (strcmp(mode, "abandon") == 0) {
+        start(2);
+    } else if (strcmp(mode, "shutdown") == 0) {
+        late_destroy();
+    } else if (strcmp(mode, "fork") == 0 && argc > 2) {
+        fork_with(atoi(argv[2]));
+    } else if (strcmp(mode, "parallel") == 0) {
+        parallel();
+    } else {
+        return 2;
+    }
+    return 0;
+}
