@@ -10,19 +10,18 @@ Offset NodePairList::bytes() const {
 NodePairList::View<> NodePairList::expanded_view() {
     View<> expanded = view();
     if (first_generation_ != generation_) {
-        first_ = {};
-        auto first = allocate<Slot>("map/pairs/i", size());
+        ensure_capacity(first_, "map/pairs/i", size());
         const auto offsets = expanded.offsets;
+        const auto first = first_;
         Kokkos::parallel_for("map/pairs/expand",
                              Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, half_rows_.n_rows()),
                              [=](const Offset i) {
                                  for (Offset k = offsets(i); k < offsets(i + 1); ++k) first(k) = static_cast<Slot>(i);
                              });
         HostExec().fence();
-        first_ = first;
         first_generation_ = generation_;
     }
-    expanded.i = first_;
+    expanded.i = Kokkos::subview(first_, std::pair<Offset, Offset>(0, size()));
     return expanded;
 }
 

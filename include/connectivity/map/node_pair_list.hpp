@@ -72,8 +72,8 @@ public:
 private:
     friend class ConnectivityMap;
     Csr half_rows_;
-    ConstView<Slot> first_;          // expanded i
-    Generation first_generation_ = 0;  // generation that first_ belongs to
+    connectivity::View<Slot> first_;   // storage of expanded i
+    Generation first_generation_ = 0;  // the generation it holds
     Generation generation_ = 0;
 };
 
