@@ -3,6 +3,7 @@
 // so this program runs itself and compares fingerprints of all results.
 
 #include <iostream>
+#include <span>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -28,8 +29,9 @@ void add_result(Fnv1a& hash, ConnectivityMap& map) {
     hash.add_view(pairs.i);
 }
 
-void add_case(Fnv1a& hash, ConnectivityMap& map, const Case& c) {
-    for (const SearchMethod method : all_methods) {
+void add_case(Fnv1a& hash, ConnectivityMap& map, const Case& c,
+              std::span<const SearchMethod> methods = all_methods) {
+    for (const SearchMethod method : methods) {
         MapOptions options = map_options(c, method);
         options.spatial_order = true;
         map.rebuild(node_lists(c), options);
