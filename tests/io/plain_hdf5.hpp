@@ -83,6 +83,9 @@ public:
     static PlainFile open(const std::string& path) {
         return PlainFile(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
     }
+    static PlainFile modify(const std::string& path) {
+        return PlainFile(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+    }
     ~PlainFile() {
         H5Pclose(make_parents_);
         H5Fclose(file_);
