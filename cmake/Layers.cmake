@@ -37,6 +37,15 @@ function(connectivity_wide_kernels sources_var x86_var)
     set(${x86_var} ${any} PARENT_SCOPE)
 endfunction()
 
+# The first target precompiles Kokkos, the others use that.
+function(connectivity_precompile target)
+    if(CONNECTIVITY_PCH AND target STREQUAL connectivity_base)
+        target_precompile_headers(${target} PRIVATE <Kokkos_Core.hpp>)
+    elseif(CONNECTIVITY_PCH AND TARGET connectivity_base)
+        target_precompile_headers(${target} REUSE_FROM connectivity_base)
+    endif()
+endfunction()
+
 # Adds the layer if src/<layer> has sources. A layer that is headers only needs no library.
 function(connectivity_layer layer)
     file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${layer}/*.cpp")
@@ -51,6 +60,7 @@ function(connectivity_layer layer)
                                PRIVATE "${PROJECT_SOURCE_DIR}/src")
     target_link_libraries(${target} PUBLIC Kokkos::kokkos Eigen3::Eigen)
     target_compile_definitions(${target} PRIVATE CONNECTIVITY_VERSION="${PROJECT_VERSION}")
+    connectivity_precompile(${target})
     if(has_x86_kernels)
         target_compile_definitions(${target} PRIVATE CONNECTIVITY_X86_KERNELS=1)
         set(CONNECTIVITY_WIDE_LAYERS ${CONNECTIVITY_WIDE_LAYERS} ${target} PARENT_SCOPE)
@@ -72,6 +82,7 @@ function(connectivity_shared_library objects)
         "${PROJECT_SOURCE_DIR}/include" PRIVATE "${PROJECT_SOURCE_DIR}/src")
     target_link_libraries(connectivity PRIVATE Kokkos::kokkos Eigen3::Eigen)
     target_compile_definitions(connectivity PRIVATE CONNECTIVITY_VERSION="${PROJECT_VERSION}")
+    connectivity_precompile(connectivity)
     target_link_options(connectivity PRIVATE "LINKER:--version-script=${map}"
         LINKER:-z,nodelete LINKER:-z,defs LINKER:-Bsymbolic-functions)
     set_target_properties(connectivity PROPERTIES VERSION ${PROJECT_VERSION}

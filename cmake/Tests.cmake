@@ -12,6 +12,12 @@ if(support)
     connectivity_target(connectivity_test_support)
     target_include_directories(connectivity_test_support PUBLIC "${PROJECT_SOURCE_DIR}/tests")
     target_link_libraries(connectivity_test_support PUBLIC connectivity_static GTest::gtest)
+    if(CONNECTIVITY_PCH)
+        target_precompile_headers(connectivity_test_support PRIVATE
+            <Kokkos_Core.hpp> <gtest/gtest.h>)
+    endif()
+    # As test executables are, or they could not share the precompiled header.
+    set_target_properties(connectivity_test_support PROPERTIES POSITION_INDEPENDENT_CODE OFF)
 endif()
 
 set(CONNECTIVITY_TEST_ENVIRONMENT OMP_PROC_BIND=false)
@@ -31,6 +37,10 @@ function(connectivity_test folder)
     set(target test_${folder})
     add_executable(${target} ${sources})
     connectivity_target(${target})
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    if(CONNECTIVITY_PCH AND TARGET connectivity_test_support)
+        target_precompile_headers(${target} REUSE_FROM connectivity_test_support)
+    endif()
     target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests"
         "${PROJECT_SOURCE_DIR}/src" "${PROJECT_SOURCE_DIR}/capi")
     target_compile_definitions(${target} PRIVATE
