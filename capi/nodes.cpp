@@ -40,9 +40,6 @@ void set_nodes(conn_nodes& nodes, Offset n_internal, const Columns& x, const Col
         throw Error(Status::argument, std::string(is_tensor ? "tensor" : "h") + " has " +
                                           std::to_string(support.n) + " nodes, must have " +
                                           std::to_string(x.n) + " as positions");
-    if (n_internal < 0 || n_internal > x.n)
-        throw Error(Status::argument, "n_internal = " + std::to_string(n_internal) +
-                                          ", must be in [0, " + std::to_string(x.n) + "]");
     const View<double> positions =
         with_room(nodes.positions, "nodes/positions", x.n * x.n_components);
     const View<double> supports =

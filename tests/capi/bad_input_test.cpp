@@ -120,6 +120,23 @@ TEST_F(CapiBadInput, a_result_over_the_budget_is_refused_with_bytes_needed_and_a
                       {"64"}));
 }
 
+TEST_F(CapiBadInput, the_budget_of_the_context_holds_where_the_map_has_none) {
+    conn_context_options options = CONN_CONTEXT_OPTIONS_INIT;
+    options.budget_bytes = 64;
+    conn_context* poor = nullptr;
+    ASSERT_TRUE(ok(conn_context_create(&options, &poor)));
+    conn_map* small = nullptr;
+    ASSERT_TRUE(ok(conn_map_create(poor, nullptr, &small)));
+    conn_nodes* const lists[] = {gas.handle, dust.handle};
+    EXPECT_TRUE(fails(conn_map_rebuild(small, lists, 2), CONN_E_BUDGET, {"64"}));
+    conn_map_options own = CONN_MAP_OPTIONS_INIT;
+    own.budget_bytes = 1 << 30;
+    EXPECT_TRUE(ok(conn_map_set_options(small, &own)));
+    EXPECT_TRUE(ok(conn_map_rebuild(small, lists, 2)));
+    EXPECT_TRUE(ok(conn_map_destroy(&small)));
+    EXPECT_TRUE(ok(conn_context_destroy(&poor)));
+}
+
 TEST_F(CapiBadInput, lists_that_are_null_dead_unset_or_too_many_are_named) {
     conn_nodes* const none[] = {gas.handle, nullptr};
     EXPECT_TRUE(fails(conn_map_rebuild(map.handle, none, 2), CONN_E_NULL, {"lists[1]"}));

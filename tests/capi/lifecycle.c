@@ -26,6 +26,7 @@ typedef struct host {
     conn_context* context;
     conn_nodes* nodes;
     conn_map* map;
+    conn_rows_view rows;
     conn_pairs_view pairs;
 } host;
 
@@ -46,7 +47,7 @@ static conn_status rebuild(host* h) {
 }
 
 static host start(int n_threads) {
-    host h = {NULL, NULL, NULL, CONN_PAIRS_VIEW_INIT};
+    host h = {NULL, NULL, NULL, CONN_ROWS_VIEW_INIT, CONN_PAIRS_VIEW_INIT};
     conn_context_options options = CONN_CONTEXT_OPTIONS_INIT;
     options.n_threads = n_threads;
     REQUIRE(conn_context_create(&options, &h.context) == CONN_OK);
@@ -54,12 +55,15 @@ static host start(int n_threads) {
     REQUIRE(conn_map_create(h.context, NULL, &h.map) == CONN_OK);
     REQUIRE(set_nodes(&h) == CONN_OK);
     REQUIRE(rebuild(&h) == CONN_OK);
-    REQUIRE(conn_map_pairs_acquire(h.map, CONN_SPACE_HOST, 0, &h.pairs) == CONN_OK);
+    REQUIRE(conn_map_rows_acquire(h.map, CONN_SPACE_HOST, &h.rows) == CONN_OK);
+    REQUIRE(conn_map_pairs_acquire(h.map, CONN_SPACE_HOST, CONN_PAIRS_EXPAND, &h.pairs) == CONN_OK);
+    REQUIRE(h.rows.n_entries == 2 * n_pairs);
     REQUIRE(h.pairs.n_pairs == n_pairs);
     return h;
 }
 
 static void finish(host* h) {
+    REQUIRE(conn_map_rows_release(&h->rows) == CONN_OK && h->rows.slots == NULL);
     REQUIRE(conn_map_pairs_release(&h->pairs) == CONN_OK && h->pairs.j == NULL);
     REQUIRE(conn_map_destroy(&h->map) == CONN_OK && h->map == NULL);
     REQUIRE(conn_nodes_destroy(&h->nodes) == CONN_OK && h->nodes == NULL);
