@@ -9,6 +9,7 @@
 // alternate in random order.
 
 #include <chrono>
+#include <fstream>
 #include <iostream>
 
 #include <benchmark/benchmark.h>
@@ -111,6 +112,23 @@ void run(benchmark::State& state, Entry& entry, const test::Workload& workload) 
     state.counters["peak_MiB"] = static_cast<double>(entry.peak_bytes) / 1048576.0;
 }
 
+std::string compiler() {
+#if defined(__clang__)
+    return std::string("clang ") + __clang_version__;
+#else
+    return std::string("gcc ") + __VERSION__;
+#endif
+}
+
+/// Name of the processor, where the system tells it.
+std::string cpu() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos)
+            return line.substr(line.find(": ") + 2);
+    return "unknown processor";
+}
+
 int run_one_group(int argc, char** argv, const std::string& group) {
     std::vector<std::string> words = {
         argv[0], "--benchmark_repetitions=5", "--benchmark_min_time=0.2",
@@ -128,7 +146,8 @@ int run_one_group(int argc, char** argv, const std::string& group) {
     const test::Workload workload = test::make_workload(entries.at(0).name.workload);
     if (!check(entries, workload)) return 1;
     benchmark::AddCustomContext("connectivity", runtime_description());
-    benchmark::AddCustomContext("compiler", __VERSION__);
+    benchmark::AddCustomContext("compiler", compiler());
+    benchmark::AddCustomContext("cpu", cpu());
     for (Entry& entry : entries)
         benchmark::RegisterBenchmark(entry.name.name().c_str(), [&entry, &workload](
                                                                     benchmark::State& state) {

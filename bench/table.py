@@ -69,8 +69,8 @@ def main():
         sys.exit(__doc__)
     contexts, cases = read(sys.argv[1:])
     for context in contexts:
-        print(f"{context['date'][:16]}, {context['num_cpus']} x {context['mhz_per_cpu']} MHz, "
-              f"load {context['load_avg'][0]:.1f} at the start; gcc {context.get('compiler', '?')}; "
+        print(f"{context['date'][:16]}, {context['num_cpus']} x {context.get('cpu', '?')}, "
+              f"load {context['load_avg'][0]:.1f} at the start; {context.get('compiler', '?')}; "
               f"{context.get('connectivity', '')}.")
     print("Median (fastest-slowest) of the repetitions. Cases: workload/form/threads[/first]; a ratio above 1 means "
           "that the peer takes longer.\n")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The life of a map over many rebuilds: storage, held views, generations, products not asked for.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <support/brute_force.hpp>
@@ -119,6 +121,36 @@ TEST(Rebuild, moved_nodes_are_found_where_they_are) {
             ASSERT_TRUE(equals(map, brute_force(c))) << step << " " << name_of(method);
         }
     }
+}
+
+/// One list of n nodes with everything else at random.
+Case one_list_of(int n, std::uint64_t seed, int dim) {
+    for (;; seed += 1000) {
+        Case c = random_case(seed, {dim, seed % 2 == 1, n, n});
+        if (c.lists.size() == 1 && c.n_slots() == n) return c;
+    }
+}
+
+TEST(Rebuild, everything_but_the_number_of_nodes_may_change) {
+    for (int dim = 1; dim <= 3; ++dim) {
+        ConnectivityMap
+            map;  // what it keeps from build to build belongs to other positions and supports
+        for (std::uint64_t seed = 0; seed < 60; ++seed) {
+            const Case c = one_list_of(700, seed, dim);
+            rebuild(map, c, SearchMethod::groups);
+            ASSERT_TRUE(equals(map, brute_force(c))) << c.text;
+        }
+    }
+}
+
+TEST(Rebuild, sizes_around_powers_of_two_and_of_blocks_are_exact) {
+    ConnectivityMap map;
+    for (int size = 16; size <= 4096; size *= 2)
+        for (int n = size - 1; n <= size + 1; ++n) {
+            const Case c = cloud(n, static_cast<std::uint64_t>(n), 0.3 / std::cbrt(n));
+            rebuild(map, c, SearchMethod::groups);
+            ASSERT_TRUE(equals(map, brute_force(c))) << n;
+        }
 }
 
 TEST(Rebuild, the_same_input_gives_the_same_bits_again) {

@@ -102,6 +102,21 @@ TEST(Anisotropy, points_lie_on_the_tilted_surface_itself) {
     check(tensor_case(3, x, H));
 }
 
+TEST(Anisotropy, beyond_a_million_a_tensor_is_exact_or_refused) {
+    for (const double ratio : {1e7, 1e8, 1e10, 1e13, 1e15})
+        for (const SearchMethod method : all_methods) {
+            const Case c = turned({0.2, 0.2, 0.2 / ratio}, 11);
+            ConnectivityMap map;
+            try {
+                rebuild(map, c, method);
+            } catch (const Error& error) {
+                EXPECT_EQ(error.status(), Status::not_spd) << error.what();
+                continue;
+            }
+            ASSERT_TRUE(equals(map, brute_force(c))) << ratio << " " << name_of(method);
+        }
+}
+
 /// 3^3 lattice in a unit box, support radius H.
 Case small_periodic_lattice(double radius) {
     std::vector<double> x;

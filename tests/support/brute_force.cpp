@@ -26,8 +26,7 @@ struct Problem {
 void unpack(const double* packed, int dim, double (&H)[3][3]) {
     int at = 0;
     for (int a = 0; a < dim; ++a)
-        for (int b = a; b < dim; ++b)
-            H[a][b] = H[b][a] = packed[at++];
+        for (int b = a; b < dim; ++b) H[a][b] = H[b][a] = packed[at++];
 }
 
 Problem flatten(const Case& c) {
@@ -82,8 +81,7 @@ bool sees(const Problem& p, const Node& i, const Node& j) {
         }
         return sum <= p.K * p.K;
     }
-    if (i.h == 0)
-        return false;
+    if (i.h == 0) return false;
     double r2 = 0;
     for (int d = 0; d < p.dim; ++d) {
         const double square = r[d] * r[d];
@@ -96,12 +94,9 @@ bool sees(const Problem& p, const Node& i, const Node& j) {
 
 bool is_neighbour(const Problem& p, const Node& i, const Node& j, SearchMode mode) {
     switch (mode) {
-    case SearchMode::gather:
-        return sees(p, i, j);
-    case SearchMode::scatter:
-        return sees(p, j, i);
-    default:
-        return sees(p, i, j) || sees(p, j, i);
+        case SearchMode::gather: return sees(p, i, j);
+        case SearchMode::scatter: return sees(p, j, i);
+        default: return sees(p, i, j) || sees(p, j, i);
     }
 }
 
@@ -127,7 +122,7 @@ template <class T>
     return ::testing::AssertionSuccess();
 }
 
-} // namespace
+}  // namespace
 
 bool sees(const Case& c, Offset i, Offset j) {
     const Problem p = flatten(c);
@@ -142,14 +137,12 @@ Expected brute_force(const Case& c) {
     e.row_offsets = e.pair_offsets = {0};
     for (std::size_t i = 0; i < n; ++i) {
         const Node& node = p.nodes[i];
-        std::size_t list = 0; // segments [0, list) of this row are closed
+        std::size_t list = 0;  // segments [0, list) of this row are closed
         for (std::size_t j = 0; j < n; ++j) {
             for (; node.stored && list < p.nodes[j].list; ++list)
                 e.row_offsets.push_back(static_cast<Offset>(e.row_slots.size()));
-            if (i == j || !is_neighbour(p, node, p.nodes[j], c.mode))
-                continue;
-            if (node.stored)
-                e.row_slots.push_back(static_cast<Slot>(j));
+            if (i == j || !is_neighbour(p, node, p.nodes[j], c.mode)) continue;
+            if (node.stored) e.row_slots.push_back(static_cast<Slot>(j));
             if (j > i && (node.stored || p.nodes[j].stored))
                 e.pair_j.push_back(static_cast<Slot>(j));
         }
@@ -181,10 +174,9 @@ Expected brute_force(const Case& c) {
     const SlotLayout& layout = map.layout();
     if (layout.list_offset() != e.list_offset || layout.row_offset() != e.row_offset)
         return ::testing::AssertionFailure() << "the layout of slots or rows differs";
-    if (auto r = rows_equal(map.rows(), e); !r)
-        return r;
+    if (auto r = rows_equal(map.rows(), e); !r) return r;
     return e.pair_offsets.empty() ? ::testing::AssertionSuccess()
                                   : pairs_equal(map.pairs().view(), e);
 }
 
-} // namespace connectivity::test
+}  // namespace connectivity::test

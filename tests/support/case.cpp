@@ -9,15 +9,13 @@ namespace connectivity::test {
 
 Offset Case::n_slots() const {
     Offset sum = 0;
-    for (std::size_t k = 0; k < lists.size(); ++k)
-        sum += n(k);
+    for (std::size_t k = 0; k < lists.size(); ++k) sum += n(k);
     return sum;
 }
 
 double Case::kernel_extent() const {
     double largest = 0;
-    for (const ListData& list : lists)
-        largest = std::max(largest, list.extent);
+    for (const ListData& list : lists) largest = std::max(largest, list.extent);
     return largest;
 }
 
@@ -35,7 +33,7 @@ Case one_list(int dim, std::vector<double> x, double extent) {
 ConstView<double> wrap(const std::vector<double>& values) {
     return ConstView<double>(values.data(), values.size());
 }
-} // namespace
+}  // namespace
 
 Case scalar_case(int dim, std::vector<double> x, std::vector<double> h, double extent) {
     Case c = one_list(dim, std::move(x), extent);
@@ -80,4 +78,4 @@ void rebuild(ConnectivityMap& map, const Case& c, SearchMethod method) {
     map.rebuild(node_lists(c), map_options(c, method));
 }
 
-} // namespace connectivity::test
+}  // namespace connectivity::test

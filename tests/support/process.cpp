@@ -15,22 +15,15 @@ namespace {
 std::int64_t status_line(const std::string& name) {
     std::ifstream file("/proc/self/status");
     for (std::string line; std::getline(file, line);)
-        if (line.rfind(name + ":", 0) == 0)
-            return std::stoll(line.substr(name.size() + 1)) * 1024;
+        if (line.rfind(name + ":", 0) == 0) return std::stoll(line.substr(name.size() + 1)) * 1024;
     return 0;
 }
 
-} // namespace
+}  // namespace
 
-std::int64_t resident_bytes() {
-    return status_line("VmRSS");
-}
-std::int64_t peak_resident_bytes() {
-    return status_line("VmHWM");
-}
-void reset_peak() {
-    std::ofstream("/proc/self/clear_refs") << "5";
-}
+std::int64_t resident_bytes() { return status_line("VmRSS"); }
+std::int64_t peak_resident_bytes() { return status_line("VmHWM"); }
+void reset_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 std::string program_path() {
     std::array<char, 4096> path{};
@@ -44,15 +37,13 @@ RunResult run_this_test_program(const std::string& gtest_filter, const std::stri
                                 gtest_filter + "'";
     RunResult result;
     FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr)
-        return result;
+    if (pipe == nullptr) return result;
     std::array<char, 4096> buffer{};
     while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
         result.out.append(buffer.data(), n);
     const int status = pclose(pipe);
-    if (WIFEXITED(status))
-        result.status = WEXITSTATUS(status);
+    if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
     return result;
 }
 
-} // namespace connectivity::test
+}  // namespace connectivity::test

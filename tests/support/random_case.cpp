@@ -10,25 +10,25 @@
 namespace connectivity::test {
 namespace {
 
-enum class Place { uniform, lattice, clusters, line, plane, few_points };
+enum class Place { uniform, lattice, clusters, line, plane, few_points, shells };
 enum class Spread { constant, factor_four, wide, with_zeros, one_giant };
 
 /// Choices that hold for all lists of a case.
 struct Scene {
     double side = 1, spacing = 0.1, support = 0.1;
     double offset[3] = {0, 0, 0};
-    double largest_support = 0; ///< half the shortest periodic axis; infinite if there is none
+    double largest_support = 0;  ///< half the shortest periodic axis; infinite if there is none
     Place place = Place::uniform;
-    bool images = false; ///< some positions outside the box
+    bool images = false;  ///< some positions outside the box
     double centre[3][3] = {};
 };
 
 Scene random_scene(Random& random, Case& c, int n) {
     Scene s;
     s.side = random.pick({1.0, 1.0, 10.0, 1e-3, 64.0});
-    s.place =
-        random.pick({Place::uniform, Place::uniform, Place::uniform, Place::lattice, Place::lattice,
-                     Place::clusters, Place::line, Place::plane, Place::few_points});
+    s.place = random.pick({Place::uniform, Place::uniform, Place::uniform, Place::lattice,
+                           Place::lattice, Place::clusters, Place::line, Place::plane,
+                           Place::few_points, Place::shells, Place::shells});
     const double offset = random.pick({0.0, 0.0, 0.0, 0.3, 1000.1, 1e5});
     s.largest_support = HUGE_VAL;
     for (int d = 0; d < c.dim; ++d) {
@@ -38,12 +38,11 @@ Scene random_scene(Random& random, Case& c, int n) {
         c.domain.hi[axis] = s.offset[d] + s.side * random.pick({1.0, 1.0, 1.0, 1.5});
         if (c.domain.periodic[axis])
             s.largest_support = std::min(s.largest_support, 0.5 * c.domain.length(d));
-        for (auto& point : s.centre)
-            point[d] = random.uniform();
+        for (auto& point : s.centre) point[d] = random.uniform();
     }
     const double nodes = std::max(1, n);
     s.spacing = s.side * std::pow(nodes, -1.0 / c.dim);
-    if (s.place == Place::lattice) // a power of two: differences are exact where the offset is
+    if (s.place == Place::lattice)  // a power of two: differences are exact where the offset is
         s.spacing = s.side * std::exp2(std::round(std::log2(s.spacing / s.side)));
     s.support = s.spacing * (s.place == Place::lattice ? random.pick({1.0, 1.0, 2.0, 3.0})
                                                        : random.log_uniform(0.3, 4.0));
@@ -53,33 +52,42 @@ Scene random_scene(Random& random, Case& c, int n) {
 
 double coordinate(Random& random, const Scene& s, int d, int centre) {
     switch (s.place) {
-    case Place::lattice:
-        return s.spacing * random.below(std::max(1, static_cast<int>(s.side / s.spacing)));
-    case Place::clusters:
-        return s.side * (s.centre[centre][d] + 1e-9 * random.uniform());
-    case Place::line:
-        return d == 0 ? s.side * random.uniform() : 0.0;
-    case Place::plane:
-        return d < 2 ? s.side * random.uniform() : 0.0;
-    case Place::few_points:
-        return s.side * s.centre[centre][d];
-    default:
-        return s.side * random.uniform();
+        case Place::lattice:
+            return s.spacing * random.below(std::max(1, static_cast<int>(s.side / s.spacing)));
+        case Place::clusters: return s.side * (s.centre[centre][d] + 1e-9 * random.uniform());
+        case Place::line: return d == 0 ? s.side * random.uniform() : 0.0;
+        case Place::plane: return d < 2 ? s.side * random.uniform() : 0.0;
+        case Place::few_points: return s.side * s.centre[centre][d];
+        default: return s.side * random.uniform();
     }
+}
+
+/// From some node to the rim of a support around it, closer to it than floats can tell.
+void step_to_rim(Random& random, const Scene& s, int dim, double (&step)[3]) {
+    double length = 0;
+    for (int d = 0; d < dim; ++d) {
+        step[d] = random.uniform(-1, 1);
+        length += step[d] * step[d];
+    }
+    const double rim = std::min(s.support, s.largest_support) *
+                       (1 + random.pick({-1.0, 1.0}) * random.log_uniform(1e-17, 1e-4));
+    for (int d = 0; d < dim; ++d) step[d] *= length > 0 ? rim / std::sqrt(length) : 0;
 }
 
 void place_nodes(Random& random, const Scene& s, const Case& c, int n, std::vector<double>& x) {
     for (int node = 0; node < n; ++node) {
-        const bool twin = node > 0 && random.chance(0.03);
-        const bool outlier = random.chance(0.005);
-        const int other = twin ? random.below(node) : 0, centre = random.below(3);
+        const bool twin = node > 0 && random.chance(0.03), outlier = random.chance(0.005);
+        const bool rim = node > 0 && s.place == Place::shells && random.chance(0.9);
+        const int other = node > 0 ? random.below(node) : 0, centre = random.below(3);
+        double step[3] = {0, 0, 0};
+        if (rim && !twin) step_to_rim(random, s, c.dim, step);
         for (int d = 0; d < c.dim; ++d) {
             double value = s.offset[d] + coordinate(random, s, d, centre);
-            if (twin)
-                value = x[static_cast<std::size_t>(other * c.dim + d)];
+            if (twin || rim) value = x[static_cast<std::size_t>(other * c.dim + d)] + step[d];
             if (c.domain.periodic[static_cast<std::size_t>(d)]) {
                 if (s.images && random.chance(0.3))
-                    value += c.domain.length(d) * (random.below(7) - 3);
+                    value += c.domain.length(d) * (random.below(7) - 3) *
+                             (random.chance(0.02) ? 1e5 : 1.0);
             } else if (outlier) {
                 value += 1e3 * s.side * random.uniform(-1, 1);
             }
@@ -90,24 +98,18 @@ void place_nodes(Random& random, const Scene& s, const Case& c, int n, std::vect
 
 double random_support(Random& random, const Scene& s, Spread spread, bool first) {
     switch (spread) {
-    case Spread::factor_four:
-        return s.support * random.log_uniform(0.5, 2.0);
-    case Spread::wide:
-        return s.support * random.log_uniform(1e-4, 1e2);
-    case Spread::with_zeros:
-        return random.chance(0.3) ? 0.0 : s.support;
-    case Spread::one_giant:
-        return first ? 1e3 * s.support : s.support;
-    default:
-        return s.support;
+        case Spread::factor_four: return s.support * random.log_uniform(0.5, 2.0);
+        case Spread::wide: return s.support * random.log_uniform(1e-4, 1e2);
+        case Spread::with_zeros: return random.chance(0.3) ? 0.0 : s.support;
+        case Spread::one_giant: return first ? 1e3 * s.support : s.support;
+        default: return s.support;
     }
 }
 
 /// K·h <= L/2 as the library will round it.
 double scalar_h(double support, double K, const Scene& s) {
     double h = std::min(support, s.largest_support) / K;
-    while (K * h > s.largest_support)
-        h = std::nextafter(h, 0.0);
+    while (K * h > s.largest_support) h = std::nextafter(h, 0.0);
     return h;
 }
 
@@ -119,7 +121,7 @@ void random_tensor(Random& random, const Scene& s, int dim, double support, doub
         axis = support * (random.chance(0.5) ? 1.0 : random.log_uniform(1 / ratio, 1.0));
         axis = std::min(axis, 0.49 * s.largest_support) / K;
     }
-    if (random.chance(0.2)) { // aligned, powers of two: exact on lattices
+    if (random.chance(0.2)) {  // aligned, powers of two: exact on lattices
         int at = 0;
         for (int a = 0; a < dim; ++a)
             for (int b = a; b < dim; ++b)
@@ -147,8 +149,7 @@ void give_supports(Random& random, const Scene& s, const Case& c, double K, List
 }
 
 int random_size(Random& random, const CaseKind& kind) {
-    if (kind.min_nodes == 0 && random.chance(0.05))
-        return random.below(4);
+    if (kind.min_nodes == 0 && random.chance(0.05)) return random.below(4);
     return static_cast<int>(random.log_uniform(std::max(2, kind.min_nodes), kind.max_nodes + 0.99));
 }
 
@@ -164,10 +165,10 @@ std::string describe(const Case& c, std::uint64_t seed, const CaseKind& kind, co
     return text.str();
 }
 
-} // namespace
+}  // namespace
 
 void rotated_tensor(int dim, const double (&axes)[3], Random& random, double* packed) {
-    double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; // rows stay orthonormal
+    double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // rows stay orthonormal
     for (int a = 0; a < dim; ++a)
         for (int b = a + 1; b < dim; ++b) {
             const double angle = random.uniform(0, 6.283185307179586);
@@ -181,8 +182,7 @@ void rotated_tensor(int dim, const double (&axes)[3], Random& random, double* pa
     for (int i = 0; i < dim; ++i)
         for (int j = i; j < dim; ++j, ++at) {
             packed[at] = 0;
-            for (int k = 0; k < dim; ++k)
-                packed[at] += v[k][i] * v[k][j] / axes[k];
+            for (int k = 0; k < dim; ++k) packed[at] += v[k][i] * v[k][j] / axes[k];
         }
 }
 
@@ -219,4 +219,4 @@ Case random_case(std::uint64_t seed, const CaseKind& kind) {
     return c;
 }
 
-} // namespace connectivity::test
+}  // namespace connectivity::test

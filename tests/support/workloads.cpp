@@ -76,8 +76,7 @@ Points plummer() {
 
 Points plane() {
     Points points = lattice({1000, 1000, 1}, 0.4, 104, std::sqrt(26.0 / pi));
-    for (Offset p = 0; p < points.n(); ++p)
-        points.at(p, 2) = 0;
+    for (Offset p = 0; p < points.n(); ++p) points.at(p, 2) = 0;
     return points;
 }
 
@@ -91,8 +90,7 @@ Points shell() {
         put_on_sphere(points, p, std::cbrt(std::fma(volume, random_of(105, p, 0), cube)), 105);
     }
     for (int corner = 0; corner < 8; ++corner)
-        for (int d = 0; d < 3; ++d)
-            points.at(corner, d) = (corner >> d & 1) != 0 ? far : -far;
+        for (int d = 0; d < 3; ++d) points.at(corner, d) = (corner >> d & 1) != 0 ? far : -far;
     return points;
 }
 
@@ -100,8 +98,7 @@ Points tank() {
     Points points = lattice({200, 50, 100}, 0.1, 106, radius(30, 1));
     const double size[3] = {800, 50, 200};
     for (Offset p = 0; p < points.n(); p += 1000)
-        for (int d = 0; d < 3; ++d)
-            points.at(p, d) = size[d] * random_of(1106, p, d);
+        for (int d = 0; d < 3; ++d) points.at(p, d) = size[d] * random_of(1106, p, d);
     return points;
 }
 
@@ -110,10 +107,8 @@ Points two_sizes() {
     Points points;
     points.resize(1000000, small);
     for (Offset p = 0; p < points.n(); ++p) {
-        for (int d = 0; d < 3; ++d)
-            points.at(p, d) = 100 * random_of(107, p, d);
-        if (random_of(107, p, 3) < 0.01)
-            points.R[static_cast<std::size_t>(p)] = 10 * small;
+        for (int d = 0; d < 3; ++d) points.at(p, d) = 100 * random_of(107, p, d);
+        if (random_of(107, p, 3) < 0.01) points.R[static_cast<std::size_t>(p)] = 10 * small;
     }
     return points;
 }
@@ -128,8 +123,7 @@ std::uint64_t hash_of(const std::vector<double>& values) {
 /// Fisher-Yates with the counter-based generator.
 std::vector<Offset> shuffled(Offset n) {
     std::vector<Offset> order(static_cast<std::size_t>(n));
-    for (std::size_t k = 0; k < order.size(); ++k)
-        order[k] = static_cast<Offset>(k);
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Offset>(k);
     for (std::uint64_t k = order.size() - 1; k > 0; --k)
         std::swap(order[k], order[mix(0xC0FFEEull + (k + 1) * golden) % (k + 1)]);
     return order;
@@ -160,12 +154,11 @@ const Recipe recipes[] = {
     {"W7", 3, false, 80631534, 0x46f884a3b3ff39fbull, two_sizes},
 };
 
-} // namespace
+}  // namespace
 
 Workload make_workload(const std::string& name) {
     for (const Recipe& recipe : recipes) {
-        if (name != recipe.name)
-            continue;
+        if (name != recipe.name) continue;
         const Points points = recipe.make();
         Workload w;
         w.name = name;
@@ -185,4 +178,4 @@ Workload make_workload(const std::string& name) {
     throw std::invalid_argument("no workload named " + name + "; known: W1 ... W7");
 }
 
-} // namespace connectivity::test
+}  // namespace connectivity::test
