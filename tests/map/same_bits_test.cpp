@@ -58,11 +58,13 @@ TEST(SameBits, DISABLED_print_fingerprint) {
     for (std::uint64_t seed = 0; seed < 120; ++seed)
         add_case(hash, map,
                  random_case(seed, {static_cast<int>(seed % 3) + 1, seed % 2 == 1, 300, 0}));
+    constexpr SearchMethod parallel[] = {SearchMethod::groups, SearchMethod::automatic};
     for (std::uint64_t seed = 0; seed < 6; ++seed)
         add_case(hash, map,
-                 random_case(seed, {static_cast<int>(seed % 3) + 1, seed % 2 == 1, 3000, 2000}));
-    add_case(hash, map, large_cloud(false));
-    add_case(hash, map, large_cloud(true));
+                 random_case(seed, {static_cast<int>(seed % 3) + 1, seed % 2 == 1, 3000, 2000}),
+                 parallel);
+    add_case(hash, map, large_cloud(false), parallel);
+    add_case(hash, map, large_cloud(true), parallel);
     std::cout << "\nthreads: " << runtime_threads() << "\nfingerprint: " << std::hex << hash.value()
               << std::endl;
 }
