@@ -32,9 +32,8 @@ std::string program_path() {
 }
 
 RunResult run_this_test_program(const std::string& gtest_filter, const std::string& environment) {
-    const std::string command = "env " + environment + " '" + program_path() +
-                                "' --gtest_also_run_disabled_tests --gtest_filter='" +
-                                gtest_filter + "'";
+    const std::string command =
+        "env " + environment + " '" + program_path() + "' --gtest_filter='" + gtest_filter + "'";
     RunResult result;
     FILE* pipe = popen(command.c_str(), "r");
     if (pipe == nullptr) return result;
