@@ -43,7 +43,7 @@ private:
         std::unique_lock lock(mutex_);
         while (!finished_) {
             const int filled = bar_width * done_ / total_;
-            fmt::print(stderr, "{}[{:=<{}}>{:<{}}] {}/{}  {}  {}", wipe, "", filled, "",
+            fmt::print(stderr, "{}[{:=<{}}>{:<{}}] {}/{}  {:.32}  {}", wipe, "", filled, "",
                        bar_width - filled, done_ + 1, total_, name_, human_duration(watch_.ms()));
             std::fflush(stderr);
             wake_.wait_for(lock, std::chrono::milliseconds(100));

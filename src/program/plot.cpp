@@ -17,6 +17,17 @@ namespace {
 constexpr const char* colours[] = {"#3b6fb6", "#d9772b", "#4a9a5b",
                                    "#9a4a8f", "#8a6d3b", "#5b5b5b"};
 
+constexpr int picture_width = 1680, picture_height = 860;
+constexpr double bottom_edge = 0.135, top_edge = 0.875;
+
+/// Where the next panel stands, in shares of the picture.
+std::string margins(double left, double right, double bottom, double top) {
+    return fmt::format(
+        "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
+        "set bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n",
+        left, right, bottom, top);
+}
+
 /// Unit names in gnuplot's enhanced text.
 std::string pretty(std::string unit) {
     const auto replace = [&](const std::string& from, const std::string& to) {
@@ -51,6 +62,16 @@ std::string colour_label(const PlotContent& content) {
         fmt::format("{}  [{} {}]", what, map.by_mass ? pretty(content.mass_unit) : "", per));
 }
 
+/// Margins that give both axes of the map the same scale (up to an aspect of 3), in the middle of
+/// the left half.
+std::string map_margins(const SurfaceDensity& map) {
+    const double width = map.hi[0] - map.lo[0], height = map.hi[1] - map.lo[1];
+    const double aspect = std::clamp(height / width, 1.0 / 3.0, 3.0);
+    const double half_x = 0.19 * std::min(1.0, 1 / aspect);
+    const double half_y = 0.19 * picture_width / picture_height * std::min(1.0, aspect);
+    return margins(0.275 - half_x, 0.275 + half_x, 0.505 - half_y, 0.505 + half_y);
+}
+
 /// The projected density as an image, its colours logarithmic.
 std::string map_panel(const PlotContent& content, const ScratchFolder& folder) {
     const auto& map = content.map;
@@ -61,13 +82,11 @@ std::string map_panel(const PlotContent& content, const ScratchFolder& folder) {
     for (float& value : pixels) value = std::max(value, lo);
     folder.write("map.bin", pixels.data(), pixels.size() * sizeof(float));
     const double dx = (map.hi[0] - map.lo[0]) / map.nx, dy = (map.hi[1] - map.lo[1]) / map.ny;
-    const bool is_elongated = std::max(map.nx, map.ny) > 3 * std::min(map.nx, map.ny);
-    std::string script;
+    std::string script = map_margins(map);
     script += fmt::format("set title {} noenhanced\n", quoted(content.map_title));
     script += fmt::format("set xlabel {}\nset ylabel {}\n", axis_label("x", content.length_unit),
                           axis_label("y", content.length_unit));
     script += fmt::format("set cblabel {}\n", colour_label(content));
-    script += fmt::format("set size {}\n", is_elongated ? "noratio" : "ratio -1");
     script += fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n", map.lo[0],
                           map.hi[0], map.lo[1], map.hi[1]);
     script += hi > 0 ? fmt::format("set logscale cb\nset cbrange [{:.6g}:{:.6g}]\n", lo, hi) : "";
@@ -88,8 +107,8 @@ std::string line_panel(const PlotContent& content, const ScratchFolder& folder) 
             fmt::format("{:.9g} {:.9g}\n", map.lo[0] + (k + 0.5) * (map.hi[0] - map.lo[0]) / map.nx,
                         map.values[static_cast<std::size_t>(k)]);
     folder.write("line.txt", data);
-    std::string script;
-    script += fmt::format("set title {} noenhanced\nset size noratio\n", quoted(content.map_title));
+    std::string script = margins(0.085, 0.465, bottom_edge, top_edge);
+    script += fmt::format("set title {} noenhanced\n", quoted(content.map_title));
     script += fmt::format("set xlabel {}\nset ylabel {}\n", axis_label("x", content.length_unit),
                           colour_label(content));
     script += fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [0:*]\n", map.lo[0], map.hi[0]);
@@ -153,7 +172,8 @@ std::string histogram_panel(const PlotContent& content, const ScratchFolder& fol
     std::vector<std::vector<Offset>> bars;
     for (const auto& entry : content.counts) bars.push_back(binned(entry.counts, bins));
     const double top = static_cast<double>(highest(bars));
-    std::string script = "set title 'Neighbours of a node' noenhanced\nset size noratio\n";
+    std::string script = margins(0.64, 0.975, bottom_edge, top_edge);
+    script += "set title 'Neighbours of a node'\n";
     script += fmt::format(
         "set ylabel {}\n",
         quoted(bins.width == 1 ? "nodes" : fmt::format("nodes in bins of {}", bins.width)));
@@ -187,22 +207,23 @@ std::string histogram_panel(const PlotContent& content, const ScratchFolder& fol
 
 /// Terminal, fonts and colours of the whole picture.
 std::string preamble(const std::string& output, const PlotContent& content) {
-    return "set encoding utf8\n"
-           "set terminal pngcairo size 1680,860 enhanced font 'Sans,15' background '#ffffff'\n"
-           "set output " +
-           quoted(output) +
-           "\n"
-           "set palette defined (0 '#000004', 1 '#160b39', 2 '#420a68', 3 '#6a176e', 4 '#932667', "
-           "5 '#bc3754', "
-           "6 '#dd513a', 7 '#f37819', 8 '#fca50a', 9 '#f6d746', 10 '#fcffa4')\n"
-           "set border lw 1.2 lc rgb '#444444'\nset tics textcolor rgb '#222222' nomirror\n"
-           "set format cb '10^{%T}'\nset key noenhanced top right samplen 2\n"
-           "set label 1 " +
-           quoted(content.caption) +
-           " at screen 0.5,0.03 center noenhanced font ',13' textcolor rgb "
-           "'#555555'\n"
-           "set multiplot title " +
-           quoted(content.title) + " noenhanced font ',19'\n";
+    std::string script = "set encoding utf8\n";
+    script += fmt::format(
+        "set terminal pngcairo size {},{} enhanced font 'Sans,15' background '#ffffff'\n",
+        picture_width, picture_height);
+    script += "set output " + quoted(output) + "\n";
+    script +=
+        "set palette defined (0 '#000004', 1 '#160b39', 2 '#420a68', 3 '#6a176e', 4 '#932667', "
+        "5 '#bc3754', 6 '#dd513a', 7 '#f37819', 8 '#fca50a', 9 '#f6d746', 10 '#fcffa4')\n"
+        "set border lw 1.2 lc rgb '#444444'\n"
+        "set tics textcolor rgb '#222222' nomirror\n"
+        "set format cb '10^{%T}'\n"
+        "set key noenhanced top right samplen 2\n";
+    script += fmt::format(
+        "set label 1 {} at screen 0.5,0.03 center noenhanced font ',13' textcolor rgb '#555555'\n",
+        quoted(content.caption));
+    script += fmt::format("set multiplot title {} noenhanced font ',19'\n", quoted(content.title));
+    return script;
 }
 
 }  // namespace
@@ -220,14 +241,8 @@ void plot(const std::string& path, const PlotContent& content) {
     PendingFile file(path);
     const ScratchFolder folder;
     std::string script = preamble(file.temporary(), content);
-    script +=
-        "set lmargin at screen 0.085\nset rmargin at screen 0.465\nset tmargin at screen 0.87\n"
-        "set bmargin at screen 0.14\n";
     script += content.dim == 1 ? line_panel(content, folder) : map_panel(content, folder);
-    script +=
-        "unset label 1\nset lmargin at screen 0.64\nset rmargin at screen 0.975\nset grid y lc rgb "
-        "'#dddddd'\n"
-        "unset format\n";
+    script += "unset label 1\nunset format\nset grid y lc rgb '#dddddd'\n";
     script += histogram_panel(content, folder);
     script += "unset multiplot\nset output\n";
     folder.write("picture.gp", script);

@@ -60,12 +60,6 @@ struct Axis {
     }
     /// A support is at most half the box, so one period brings every pixel back.
     int wrapped(int k) const { return k < 0 ? k + n : k >= n ? k - n : k; }
-    /// Pixel of a place; -1 outside.
-    int pixel_of(double at) const {
-        const double k = std::floor(at);
-        if (k == n && is_periodic) return 0;
-        return k >= 0 && k < n ? static_cast<int>(k) : -1;
-    }
 };
 
 /// Adds nodes to one image; every worker has its own. A node's weight falls as (1 - q^2)^3 from its
@@ -88,36 +82,34 @@ public:
     }
 
 private:
+    /// Spreads over at least `least` pixels, so that points show and small supports do not flicker.
     void paint(double x, double y, double radius, double mass) {
-        const double reach_x = radius / x_.pixel(), reach_y = dim_ > 1 ? radius / y_.pixel() : 1;
-        const int kx = x_.pixel_of(x), ky = y_.pixel_of(y);
-        if (reach_x > 1 && (dim_ == 1 || reach_y > 1))
-            spread(x, y, reach_x, reach_y, mass / total_weight(reach_x, reach_y));
-        else if (kx >= 0 && ky >= 0)
-            at(ky, kx) += mass;
+        constexpr double least = 1.5, resolved = 4;
+        const double reach_x = std::max(least, radius / x_.pixel());
+        const double reach_y = dim_ > 1 ? std::max(least, radius / y_.pixel()) : 1;
+        double sum = dim_ == 1 ? 32.0 / 35.0 * reach_x : std::numbers::pi / 4 * reach_x * reach_y;
+        if (std::min(reach_x, dim_ > 1 ? reach_y : reach_x) < resolved) {
+            sum = 0;
+            under(x, y, reach_x, reach_y, [&](double&, double weight) { sum += weight; });
+        }
+        under(x, y, reach_x, reach_y,
+              [&](double& at, double weight) { at += mass * weight / sum; });
     }
 
-    /// Sum of the weights of a support that lies wholly in the image.
-    double total_weight(double reach_x, double reach_y) const {
-        return dim_ == 1 ? 32.0 / 35.0 * reach_x : std::numbers::pi / 4 * reach_x * reach_y;
-    }
-
-    void spread(double x, double y, double reach_x, double reach_y, double mass) {
+    /// Visits the pixels of the image whose centres lie under a support, with its weight there.
+    template <class Visit>
+    void under(double x, double y, double reach_x, double reach_y, const Visit& visit) {
         const auto [first_y, last_y] = y_.under(y, dim_ > 1 ? reach_y : 0.25);
         for (int ky = first_y; ky <= last_y; ++ky) {
             const double dy = (ky + 0.5 - y) / reach_y, rest_y = 1 - dy * dy;
             if (rest_y <= 0) continue;
+            double* const line = image_.data() + static_cast<std::ptrdiff_t>(y_.wrapped(ky)) * x_.n;
             const auto [first_x, last_x] = x_.under(x, reach_x * std::sqrt(rest_y));
             for (int kx = first_x; kx <= last_x; ++kx) {
                 const double dx = (kx + 0.5 - x) / reach_x, rest = std::max(0.0, rest_y - dx * dx);
-                at(y_.wrapped(ky), x_.wrapped(kx)) += mass * rest * rest * rest;
+                visit(line[x_.wrapped(kx)], rest * rest * rest);
             }
         }
-    }
-
-    double& at(int ky, int kx) {
-        return image_[static_cast<std::size_t>(ky) * static_cast<std::size_t>(x_.n) +
-                      static_cast<std::size_t>(kx)];
     }
 
     Axis x_, y_;

@@ -3,9 +3,9 @@
 /// Projection of node lists on the x-y plane: mass (or nodes) per area, each node spread over its
 /// own support.
 ///
-/// Invariant: mass is conserved up to the resolution of a support by pixels (1 % where it is a few
-/// pixels wide) and to what lies outside an open window. On periodic axes the window is the box and
-/// supports wrap around it. Cost: the number of pixels under all supports.
+/// Invariant: what lies in the window is conserved, to 1e-3 where supports cover many pixels. On
+/// periodic axes the window is the box and supports wrap around it; on open ones a few outliers may
+/// be left out. Cost: the number of pixels under all supports.
 
 #include <span>
 #include <vector>
