@@ -6,7 +6,6 @@
 /// [lo, hi) divided into 2^bits equal parts, the last one closed.
 /// Cost: one pass over the positions.
 
-#include <array>
 #include <cstdint>
 
 #include <connectivity/base/spaces.hpp>
@@ -48,7 +47,7 @@ KOKKOS_INLINE_FUNCTION constexpr std::uint64_t interleave(const std::uint64_t (&
 /// The box whose cells the keys number: the bounding box of all nodes, ghosts included.
 template <int Dim>
 struct KeyBox {
-    std::array<double, Dim> lo, hi;
+    double lo[Dim], hi[Dim];
 
     /// Cell of coordinate x on axis d: min(2^bits - 1, floor((x - lo)/(hi - lo) * 2^bits)); 0 on an axis of no width.
     KOKKOS_INLINE_FUNCTION std::uint64_t cell(double x, int d) const {
