@@ -51,7 +51,7 @@ extern "C" {
 /**@{*/
 typedef int32_t conn_status;
 enum {
-#define CONN_STATUS_C_ENUMERATOR(NAME, name, value, text) CONN_##NAME = value,
+#define CONN_STATUS_C_ENUMERATOR(NAME, name, value, text) CONN_##NAME = (value),
     CONN_STATUS_LIST(CONN_STATUS_C_ENUMERATOR)
 #undef CONN_STATUS_C_ENUMERATOR
 };
@@ -116,17 +116,13 @@ typedef struct conn_array {
 
 /** n values one after the other. */
 static inline conn_array conn_array_vector(const double* data, int64_t n) {
-    conn_array a = {NULL, CONN_SPACE_HOST, 0, CONN_FLOAT64, 1, {0, 1}, {1, 1}};
-    a.data = data;
-    a.extent[0] = n;
+    conn_array a = {data, CONN_SPACE_HOST, 0, CONN_FLOAT64, 1, {n, 1}, {1, 1}};
     return a;
 }
 /** n nodes one after the other, the components of a node together: x[n][n_components]. */
 static inline conn_array conn_array_matrix(const double* data, int64_t n, int64_t n_components) {
-    conn_array a = {NULL, CONN_SPACE_HOST, 0, CONN_FLOAT64, 2, {0, 0}, {0, 1}};
-    a.data = data;
-    a.extent[0] = n;
-    a.extent[1] = a.stride[0] = n_components;
+    conn_array a = {
+        data, CONN_SPACE_HOST, 0, CONN_FLOAT64, 2, {n, n_components}, {n_components, 1}};
     return a;
 }
 /**@}*/

@@ -48,7 +48,7 @@ Handle* Registry::find(const void* pointer, const std::string& name) const {
 // the memory is left to the end of the process.
 void Registry::remove(const void* pointer) {
     const auto found = live_.find(pointer);
-    if (is_forked()) found->second.release();
+    if (is_forked()) static_cast<void>(found->second.release());
     live_.erase(found);
 }
 

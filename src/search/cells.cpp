@@ -91,7 +91,7 @@ void Cells<Dim>::fill(Offset n) {
     const Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>> all(0, n);
     const auto start = start_;
     Kokkos::parallel_for("search/cells/count", all, [this, start](const Offset i) {
-        Kokkos::atomic_increment(&start(static_cast<Offset>(hash(cell(i)) & mask_)));
+        Kokkos::atomic_add(&start(static_cast<Offset>(hash(cell(i)) & mask_)), Offset{1});
     });
     Kokkos::parallel_scan("search/cells/scan", Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, buckets + 1),
                           [=](const Offset b, Offset& sum, const bool final) {

@@ -90,15 +90,16 @@ TEST(RuntimeAlone, DISABLED_threads) {
 }
 
 TEST(RuntimeAlone, DISABLED_race) {
-    std::vector<std::thread> threads;
-    for (int t = 0; t < 8; ++t) threads.emplace_back([] { start_runtime({2, -1}); });
+    std::vector<std::thread> threads(8);
+    for (std::thread& thread : threads) thread = std::thread([] { start_runtime({2, -1}); });
     for (std::thread& thread : threads) thread.join();
     start_runtime();
     EXPECT_EQ(sum_below(100), 4950);
 }
 
 ::testing::AssertionResult passes_alone(const std::string& test) {
-    const RunResult run = run_this_test_program("RuntimeAlone.DISABLED_" + test, "");
+    const RunResult run =
+        run_this_test_program("RuntimeAlone.DISABLED_" + test, "GTEST_ALSO_RUN_DISABLED_TESTS=1");
     if (run.status == 0 && run.out.find("[  PASSED  ] 1 test") != std::string::npos)
         return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << "exit status " << run.status << "\n" << run.out;

@@ -10,6 +10,8 @@ namespace {
 
 constexpr int n = 400;
 
+std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
+
 /// An argument in some layout, with the memory it points to.
 struct Argument {
     std::vector<double> doubles;
@@ -24,8 +26,7 @@ Argument strided(const std::vector<double>& values, int components, std::int64_t
     a.doubles.assign(size, -1e300);
     for (int i = 0; i < n; ++i)
         for (int c = 0; c < components; ++c)
-            a.doubles[static_cast<std::size_t>(origin + i * s0 + c * s1)] =
-                values[static_cast<std::size_t>(i * components + c)];
+            a.doubles[at(origin + i * s0 + c * s1)] = values[at(i * components + c)];
     conn_array array = conn_array_matrix(a.doubles.data() + origin, n, components);
     array.stride[0] = s0;
     array.stride[1] = s1;
@@ -33,20 +34,16 @@ Argument strided(const std::vector<double>& values, int components, std::int64_t
     return a;
 }
 
-Argument interleaved(const std::vector<double>& v, int c) {
-    return strided(v, c, c, 1, static_cast<std::size_t>(n * c));
-}
-Argument planar(const std::vector<double>& v, int c) {
-    return strided(v, c, 1, n, static_cast<std::size_t>(n * c));
-}
+Argument interleaved(const std::vector<double>& v, int c) { return strided(v, c, c, 1, at(n * c)); }
+Argument planar(const std::vector<double>& v, int c) { return strided(v, c, 1, n, at(n * c)); }
 Argument padded(const std::vector<double>& v, int c) {
-    return strided(v, c, 3 * c + 2, 2, static_cast<std::size_t>(n * (3 * c + 2)));
+    return strided(v, c, 3 * c + 2, 2, at(n * (3 * c + 2)));
 }
 Argument backwards(const std::vector<double>& v, int c) {
-    return strided(v, c, -c, 1, static_cast<std::size_t>(n * c), (n - 1) * c);
+    return strided(v, c, -c, 1, at(n * c), (n - 1) * c);
 }
 Argument mirrored(const std::vector<double>& v, int c) {
-    return strided(v, c, c, -1, static_cast<std::size_t>(n * c), c - 1);
+    return strided(v, c, c, -1, at(n * c), c - 1);
 }
 Argument separate(const std::vector<double>& v, int components) {
     Argument a = planar(v, components);
@@ -60,8 +57,7 @@ Argument separate_floats(const std::vector<double>& v, int components) {
     a.floats.resize(v.size());
     for (int i = 0; i < n; ++i)
         for (int c = 0; c < components; ++c)
-            a.floats[static_cast<std::size_t>(c * n + i)] =
-                static_cast<float>(v[static_cast<std::size_t>(i * components + c)]);
+            a.floats[at(c * n + i)] = static_cast<float>(v[at(i * components + c)]);
     for (int c = 0; c < components; ++c) {
         conn_array array = conn_array_vector(nullptr, n);
         array.data = a.floats.data() + c * n;

@@ -196,17 +196,22 @@ TEST(CapiStructs, a_size_that_no_host_can_have_is_refused) {
     }
 }
 
+template <class T>
+std::string bytes_of(const T& object) {
+    return {reinterpret_cast<const char*>(&object), sizeof object};
+}
+
 TEST(CapiStructs, init_functions_give_what_the_macros_give) {
     const conn_map_options from_macro = CONN_MAP_OPTIONS_INIT;
     conn_map_options from_function;
     std::memset(&from_function, 0xff, sizeof from_function);
     ASSERT_TRUE(ok(conn_map_options_init(&from_function, sizeof from_function)));
-    EXPECT_EQ(std::memcmp(&from_macro, &from_function, sizeof from_macro), 0);
+    EXPECT_EQ(bytes_of(from_macro), bytes_of(from_function));
     const conn_context_options c_macro = CONN_CONTEXT_OPTIONS_INIT;
     conn_context_options c_function;
     std::memset(&c_function, 0xff, sizeof c_function);
     ASSERT_TRUE(ok(conn_context_options_init(&c_function, sizeof c_function)));
-    EXPECT_EQ(std::memcmp(&c_macro, &c_function, sizeof c_macro), 0);
+    EXPECT_EQ(bytes_of(c_macro), bytes_of(c_function));
     EXPECT_TRUE(fails(conn_map_options_init(nullptr, sizeof from_macro), CONN_E_NULL));
 }
 
