@@ -33,7 +33,8 @@ struct Density {
     double distance(Offset i, Offset j) const {
         double r2 = 0;
         for (int d = 0; d < Dim; ++d) {
-            const double r = box.wrap(x[i * Dim + d] - x[j * Dim + d], d);
+            double r = x[i * Dim + d] - x[j * Dim + d];
+            if (2 * std::abs(r) > box.length[d]) r = box.wrap(r, d);  // rint is slow, and rare here
             r2 += r * r;
         }
         return std::sqrt(r2);

@@ -40,16 +40,14 @@ public:
           reader_(open_snapshot(options.file, {options.extent, options.step, options.open})),
           names_(select_lists(reader_->info(), options.lists)),
           console_(static_cast<int>(names_.size() * (options.density ? 2 : 1)) + 1 +
-                   !options.out.empty() + !options.plot.empty()) {
-        if (!options.out.empty()) out_.emplace(options.out);
-    }
+                   !options.out.empty() + !options.plot.empty()) {}
 
     void run() {
         Console::line(describe_input(reader_->info()));
         read();
         search();
         if (options_.density) compute_densities();
-        if (out_) console_.phase("writing " + options_.out, [&] { write(); });
+        if (!options_.out.empty()) console_.phase("writing " + options_.out, [&] { write(); });
         if (!options_.plot.empty()) console_.phase("drawing " + options_.plot, [&] { draw(); });
         Console::line(fmt::format("\npeak memory {}", human_bytes(peak_memory())));
     }
@@ -67,12 +65,11 @@ private:
     std::unique_ptr<SnapshotReader> reader_;
     std::vector<std::string> names_;
     Console console_;
-    std::optional<ResultFile> out_;
     std::vector<ListData> lists_;
     std::vector<NodeList> nodes_;
     ConnectivityMap map_;
     std::vector<PlotCounts> counts_;
-    std::vector<ConstView<double>> densities_;  // [n_lists], empty views where there is none
+    std::vector<std::optional<ConstView<double>>> densities_;  // [n_lists] if asked for
 };
 
 void PairsRun::read() {
@@ -131,19 +128,20 @@ void PairsRun::compute_densities() {
 void PairsRun::compare(std::size_t k) {
     const auto& theirs = lists_[k].density;
     if (theirs.size() == 0) return;
-    const auto difference = relative_difference(densities_[k], theirs);
+    const auto difference = relative_difference(*densities_[k], theirs);
     Console::line(fmt::format(
         "density of {} against the file's own: rms {:.2e}, max {:.2e} relative ({} nodes)",
         names_[k], difference.rms, difference.max, difference.n));
 }
 
 void PairsRun::write() {
-    out_->write(map_, nodes_, options_.command);
+    ResultFile out(options_.out);
+    out.write(map_, nodes_, options_.command);
     const auto& info = reader_->info();
     for (std::size_t k = 0; k < densities_.size(); ++k)
-        if (densities_[k].data() != nullptr)
-            out_->write_density(names_[k], densities_[k], density_unit(info.units, info.dim));
-    out_->commit();
+        if (densities_[k])
+            out.write_density(names_[k], *densities_[k], density_unit(info.units, info.dim));
+    out.commit();
 }
 
 /// Lists whose nodes have an extent to paint; if none has, all of them as points.

@@ -86,7 +86,7 @@ std::string map_panel(const PlotContent& content, const ScratchFolder& folder) {
     script += fmt::format("set title {} noenhanced\n", quoted(content.map_title));
     script += fmt::format("set xlabel {}\nset ylabel {}\n", axis_label("x", content.length_unit),
                           axis_label("y", content.length_unit));
-    script += fmt::format("set cblabel {}\n", colour_label(content));
+    script += fmt::format("set cblabel {} offset 1.2,0\n", colour_label(content));
     script += fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n", map.lo[0],
                           map.hi[0], map.lo[1], map.hi[1]);
     script += hi > 0 ? fmt::format("set logscale cb\nset cbrange [{:.6g}:{:.6g}]\n", lo, hi) : "";

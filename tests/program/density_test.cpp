@@ -107,6 +107,15 @@ TEST(Density, does_not_depend_on_the_other_lists) {
     expect_density(c);
 }
 
+TEST(Density, of_an_empty_list_is_empty) {
+    Case c = uniform_case(1, {0, 0.5}, 0.5);
+    c.lists[0].name = "some";
+    c.lists.push_back(c.lists[0]);
+    c.lists[1] = {};
+    c.lists[1].name = "none";
+    expect_density(c);
+}
+
 TEST(Density, is_not_written_without_masses) {
     const TemporaryFolder folder;
     write_case(folder / "in.h5", uniform_case(1, {0, 1}, 0.5));

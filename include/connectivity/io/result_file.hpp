@@ -11,6 +11,7 @@
 ///            library_version
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include <connectivity/map/connectivity_map.hpp>
@@ -19,8 +20,7 @@ namespace connectivity {
 
 class ResultFile {
 public:
-    /// Opens a temporary file beside `path` at once, so that a bad place is found before the work
-    /// and not after. Throws Error{file}.
+    /// Opens a temporary file beside `path`. Throws Error{file}.
     explicit ResultFile(const std::string& path);
     ~ResultFile();  ///< removes what was not committed
 
