@@ -42,6 +42,7 @@ private:
     static constexpr Offset line = 16, capacity = 256 * line;
 
     void flush() {
+        if (filled_ == 0) return;  // without values there is no place to write to
         Offset k = 0;
 #if defined(__SSE2__)
         while (k < filled_ && reinterpret_cast<std::uintptr_t>(to_ + k) % 64 != 0) to_[k] = buffer_[k], ++k;

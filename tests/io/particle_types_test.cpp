@@ -90,7 +90,7 @@ TEST(Gadget, box_is_periodic_if_config_says_so) {
             file.group("Config");
             if (periodic) file.attribute("Config", "PERIODIC", "");
         });
-        const auto& domain = open_snapshot(folder / "a.hdf5")->info().domain;
+        const auto domain = open_snapshot(folder / "a.hdf5")->info().domain;
         EXPECT_EQ(domain.any_periodic(3), periodic);
         EXPECT_EQ(domain.length(2), periodic ? 10 : 0);
     }
