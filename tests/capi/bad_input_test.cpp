@@ -137,6 +137,20 @@ TEST_F(CapiBadInput, the_budget_of_the_context_holds_where_the_map_has_none) {
     EXPECT_TRUE(ok(conn_context_destroy(&poor)));
 }
 
+TEST_F(CapiBadInput, a_pair_explosion_is_counted_in_64_bits_before_it_allocates) {
+    const int n = 92683;  // n * (n - 1) / 2 is the first to pass 2^32
+    NodeSet all;
+    for (int i = 0; i < n; ++i) all.x.insert(all.x.end(), {1e-6 * i, 0, 0});
+    all.h.assign(n, 1);
+    ASSERT_TRUE(ok(dust.set(3, all)));
+    conn_map_options options = CONN_MAP_OPTIONS_INIT;
+    options.budget_bytes = 1000000000;
+    ASSERT_TRUE(ok(conn_map_set_options(map.handle, &options)));
+    EXPECT_TRUE(fails(
+        map.rebuild({dust.handle}), CONN_E_BUDGET,
+        {"4295022903 pairs", "8590045806 row entries", "1000000000 bytes", "node 0 with 92682"}));
+}
+
 TEST_F(CapiBadInput, lists_that_are_null_dead_unset_or_too_many_are_named) {
     conn_nodes* const none[] = {gas.handle, nullptr};
     EXPECT_TRUE(fails(conn_map_rebuild(map.handle, none, 2), CONN_E_NULL, {"lists[1]"}));
