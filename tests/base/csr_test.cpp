@@ -11,6 +11,12 @@
 
 #include <support/expect_error.hpp>
 
+#if defined(__SANITIZE_ADDRESS__)
+/// A request for more memory than there is must come back as an error, not end the program.
+extern "C" __attribute__((visibility("default"))) const char* __asan_default_options();
+extern "C" const char* __asan_default_options() { return "allocator_may_return_null=1"; }
+#endif
+
 namespace connectivity::test {
 namespace {
 

@@ -110,8 +110,9 @@ TEST(Repetition, a_hundred_shrinking_rebuilds_keep_memory_flat) {
         rebuild(map, probe);
         ASSERT_TRUE(equals(map, brute_force(probe)));
     }
-    EXPECT_LE(resident_bytes(), before + (std::int64_t{1} << 20) +
-                                    (std::int64_t{2} << 20));  // the case's own copies: 2 MiB
+#if !defined(__SANITIZE_ADDRESS__)  // a sanitizer keeps freed memory
+    EXPECT_LE(resident_bytes(), before + (std::int64_t{3} << 20)) << "2 MiB of it are the cases";
+#endif
 }
 
 TEST(StaleUse, views_tell_their_generation_and_missing_products_are_errors) {
