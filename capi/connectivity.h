@@ -311,11 +311,12 @@ CONN_API conn_status conn_map_pairs_acquire(conn_map* map, int32_t space, int32_
 CONN_API conn_status conn_map_pairs_release(conn_pairs_view* view);
 /**@}*/
 
-/** @name Report: what the last rebuild made, who asked for it, what it cost */
+/** @name Report: what the last rebuild made, who asked for it, what it cost
+ * Texts belong to the map: they are valid until its next rebuild or its end. */
 /**@{*/
 typedef struct conn_report_entry {
     size_t struct_size;
-    const char* product;  /**< "rows", "pairs", ...; texts are valid until the next rebuild */
+    const char* product;  /**< "rows", "pairs", ... */
     const char* asked_by; /**< "" if nobody */
     const char* reason;   /**< why it was built the way it was */
     int64_t bytes;        /**< held now */
@@ -328,7 +329,7 @@ typedef struct conn_report_entry {
 /** Entry index of [0, n_report_entries). */
 CONN_API conn_status conn_map_report_entry(const conn_map* map, int32_t index,
                                            conn_report_entry* entry);
-/** Counter index of [0, n_report_counters). *name is valid until the next rebuild. */
+/** Counter index of [0, n_report_counters). Either output may be NULL. */
 CONN_API conn_status conn_map_report_counter(const conn_map* map, int32_t index, const char** name,
                                              int64_t* value);
 /** The report as a table for people. *length receives the bytes without the final NUL. With buffer

