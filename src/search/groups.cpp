@@ -79,7 +79,7 @@ void GroupSearch<Dim>::sweep(const GroupSweep<Dim>& shared, Offset stride) {
 template <int Dim>
 Offset GroupSearch<Dim>::estimate_entries(const GroupSweep<Dim>& shared) {
     constexpr Offset stride = 64;
-    store_.begin_sweep(true);
+    store_.begin_sweep(0);
     sweep(shared, stride);
     Offset entries = 0, sampled = 0;
     for (Offset b = 0; b < order_.n_blocks(); b += stride)
@@ -97,34 +97,37 @@ void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layo
     const Kernels<Dim>& table = kernels<Dim>();
     if (workers_.size() < static_cast<std::size_t>(n_workers())) workers_ = std::vector<GroupWorker<Dim>>(n_workers());
     for (auto& worker : workers_) worker.counters = {};
-    const Offset allowed = request.budget.allowed();
-    store_.begin(layout, request.rows, request.half_rows, allowed, {table.expand, table.count});
+    store_.begin(layout, request.rows, request.half_rows, {table.expand, table.count});
     const GroupSweep<Dim> shared{nodes, order_, boxes_, table, request.mode, bits_for(nodes.n), store_};
-
-    // Rows are counted before any are kept where keeping them might not fit.
-    const Offset expected = entries_before_ >= 0 ? entries_before_ : estimate_entries(shared);
-    const bool might_not_fit = expected > allowed / static_cast<Offset>(4 * sizeof(Slot));
-    if (might_not_fit) {
-        store_.begin_sweep(true);
-        sweep(shared, 1);
-        products.prepare(store_.counts(), layout, request.budget);
-    }
-    store_.begin_sweep(false);
-    sweep(shared, 1);
-    try {
-        products.prepare(store_.counts(), layout, request.budget);
-    } catch (...) {
-        store_.release();
-        throw;
-    }
-    if (store_.over_budget()) {
-        store_.release();
-        throw Error(Status::budget, "the search needs more than " + human_bytes(allowed) + " while it runs");
-    }
+    find_rows(shared, layout, request, products);
     store_.transfer(products);
     entries_before_ = std::max(request.rows ? products.rows.n_values() : 0,
                                request.half_rows ? products.halves.n_values() : 0);
     report_costs(report);
+}
+
+/// One sweep where the rows are about as many as expected. Where they are more, or might not fit the budget, they are
+/// counted before any more memory is taken, and found again once they are known to fit.
+template <int Dim>
+void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout& layout, const SearchRequest& request,
+                                 Products products) {
+    constexpr Offset slack = Offset{16} << 20;
+    const Offset expected = (entries_before_ >= 0 ? entries_before_ : estimate_entries(shared)) * Offset{sizeof(Slot)};
+    const bool surely_fits = expected < slack / 4 || request.budget.allows(4 * expected);
+    try {
+        store_.begin_sweep(surely_fits ? 2 * expected + slack : 0);
+        sweep(shared, 1);
+        products.prepare(store_.counts(), layout, request.budget);
+        if (!store_.only_counted()) return;
+        const Offset free = Budget().allowed();
+        store_.begin_sweep(free);
+        sweep(shared, 1);
+        if (store_.only_counted())
+            throw Error(Status::budget, "the search needs more than " + human_bytes(free) + " while it runs");
+    } catch (...) {
+        store_.release();
+        throw;
+    }
 }
 
 template <int Dim>

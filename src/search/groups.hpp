@@ -27,6 +27,8 @@ private:
     void update_order(const SearchNodes<Dim>& nodes, Report& report);
     void sweep(const GroupSweep<Dim>& shared, Offset stride);
     Offset estimate_entries(const GroupSweep<Dim>& shared);
+    void find_rows(const GroupSweep<Dim>& shared, const SlotLayout& layout, const SearchRequest& request,
+                   Products products);
     void report_costs(Report& report) const;
 
     GroupOrder order_;

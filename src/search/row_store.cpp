@@ -7,11 +7,10 @@
 
 namespace connectivity::detail {
 
-void RowStore::begin(const SlotLayout& layout, bool rows, bool halves, Offset budget_bytes, BitKernels kernels) {
+void RowStore::begin(const SlotLayout& layout, bool rows, bool halves, BitKernels kernels) {
     layout_ = &layout;
     rows_ = rows;
     halves_ = halves;
-    budget_ = budget_bytes;
     kernels_ = kernels;
     last_stored_ = -1;
     for (int l = 0; l < layout.n_lists(); ++l) {
@@ -26,9 +25,9 @@ void RowStore::begin(const SlotLayout& layout, bool rows, bool halves, Offset bu
         ensure_capacity(by_list_, "search/groups/by_list", layout.n_rows() * layout.n_lists());
 }
 
-void RowStore::begin_sweep(bool counting) {
-    counting_ = counting;
-    over_ = false;
+void RowStore::begin_sweep(Offset arena_bytes) {
+    arena_bytes_ = arena_bytes;
+    only_counts_ = arena_bytes == 0;
     used_ = 0;
     for (Worker& worker : workers_) worker.arena.reset();
 }
@@ -45,9 +44,9 @@ void RowStore::store_nothing(Slot slot) {
 
 /// Memory for n entries: in the arena, or in passing while rows are only counted.
 Slot* RowStore::room(Worker& worker, Offset n) {
-    if (!counting_ && !over_budget()) {
+    if (!only_counted()) {
         Slot* const row = worker.arena.begin_row(n, used_);
-        if (used_.load(std::memory_order_relaxed) > budget_) over_.store(true, std::memory_order_relaxed);
+        if (used_.load(std::memory_order_relaxed) > arena_bytes_) only_counts_.store(true, std::memory_order_relaxed);
         return row;
     }
     if (static_cast<Offset>(worker.row.size()) < n + list_slack) worker.row.resize(n + list_slack);
@@ -77,7 +76,7 @@ void RowStore::store(int worker_number, const FoundRow& found) {
     const int first = whole ? 0 : found.place / word_size, most = (found.n_words - first) * word_size;
     const int before = whole ? kernels_.count(found.bits, found.place) : 0;
     // Only the number matters while counting, unless entries must be told apart.
-    if ((counting_ || over_budget()) && row >= 0 && (!whole || layout_->n_lists() == 1)) {
+    if (only_counted() && row >= 0 && (!whole || layout_->n_lists() == 1)) {
         const int n = kernels_.count(found.bits + first, most);
         record(found.slot, nullptr, n, n - before);
         return;

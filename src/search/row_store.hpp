@@ -3,7 +3,7 @@
 /// Rows as the group search finds them, in any order, and their way into the final lists in slot order.
 ///
 /// Invariants: every slot is stored exactly once a sweep; a slot's row lies in the arena of the worker that found it.
-/// While `counting`, or once the arenas outgrow the budget, rows are only counted: counts are exact all the same.
+/// Once the arenas outgrow what the sweep may keep, rows are only counted: counts are exact all the same.
 /// Cost: 16 bytes a slot, and in the arenas 4 bytes for every entry kept.
 
 #include <atomic>
@@ -42,10 +42,10 @@ public:
     enum class Wanted { nothing, later, all };
 
     /// Makes room. Throws Error{memory}.
-    void begin(const SlotLayout& layout, bool rows, bool halves, Offset budget_bytes, BitKernels kernels);
+    void begin(const SlotLayout& layout, bool rows, bool halves, BitKernels kernels);
 
-    /// Starts a sweep; counting ones keep no rows.
-    void begin_sweep(bool counting);
+    /// Starts a sweep that keeps at most `arena_bytes` of rows in arenas and only counts the others; 0: counts all.
+    void begin_sweep(Offset arena_bytes);
 
     Wanted wanted(Slot slot) const;
 
@@ -53,8 +53,8 @@ public:
     void store(int worker, const FoundRow& row);
     void store_nothing(Slot slot);
 
-    /// The arenas outgrew the budget: the counts are complete, the rows are not.
-    bool over_budget() const { return over_.load(std::memory_order_relaxed); }
+    /// Some rows were only counted: the counts are complete, the rows are not.
+    bool only_counted() const { return only_counts_.load(std::memory_order_relaxed); }
 
     Counts counts() const;
 
@@ -82,11 +82,11 @@ private:
     void fill_halves(Csr& halves) const;
 
     const SlotLayout* layout_ = nullptr;
-    bool rows_ = false, halves_ = false, counting_ = false;
-    Offset budget_ = 0;
+    bool rows_ = false, halves_ = false;
+    Offset arena_bytes_ = 0;
     Slot last_stored_ = -1;
     BitKernels kernels_{};
-    std::atomic<bool> over_{false};
+    std::atomic<bool> only_counts_{false};
     std::atomic<Offset> used_{0};
     std::vector<Worker> workers_;
     View<ArenaRow> row_;  // [n_slots]; nowhere while counting
