@@ -13,12 +13,6 @@
 namespace connectivity::test {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
-
 /// n nodes that all see each other.
 Case one_heap(Offset n) {
     Random random(1);

@@ -8,6 +8,13 @@
 
 namespace connectivity::test {
 
+/// Whether a sanitizer slows this process down and keeps freed memory.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
 /// Bytes of this process in memory now (0 where the system does not tell).
 std::int64_t resident_bytes();
 
