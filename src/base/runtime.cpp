@@ -75,16 +75,14 @@ void start_kokkos(const RuntimeOptions& options) {
     Kokkos::push_finalize_hook(before_finalize);
 }
 
-} // namespace
+}  // namespace
 
 void start_runtime(const RuntimeOptions& options) {
     require_runtime();
-    if (phase == Phase::running)
-        return;
+    if (phase == Phase::running) return;
     const std::lock_guard lock(record().mutex);
-    require_runtime(); // another thread may have been faster
-    if (phase == Phase::running)
-        return;
+    require_runtime();  // another thread may have been faster
+    if (phase == Phase::running) return;
     static const int registered = pthread_atfork(nullptr, nullptr, mark_child);
     if (registered != 0)
         throw Error(Status::memory, "start_runtime: no memory for the fork handler");
@@ -111,18 +109,15 @@ void require_runtime() {
     if (phase == Phase::finalized || shim::kokkos_is_finalized())
         throw Error(Status::finalized,
                     "Kokkos was finalised in this process and cannot be started a second time");
-    if (phase == Phase::running)
-        shim::adopt_thread(pool);
+    if (phase == Phase::running) shim::adopt_thread(pool);
 }
 
 void stop_runtime() {
-    if (phase != Phase::running)
-        return;
+    if (phase != Phase::running) return;
     require_runtime();
     {
         const std::lock_guard lock(record().mutex);
-        if (!std::exchange(record().is_owned, false))
-            return;
+        if (!std::exchange(record().is_owned, false)) return;
     }
     shim::outside_parallel_region([] {
         shim::adopt_thread(pool);
@@ -134,9 +129,7 @@ bool runtime_is_running() {
     return phase == Phase::running && !is_forked && !shim::kokkos_is_finalized();
 }
 
-int runtime_threads() {
-    return runtime_is_running() ? n_threads_running.load() : 0;
-}
+int runtime_threads() { return runtime_is_running() ? n_threads_running.load() : 0; }
 
 void at_runtime_stop(std::function<void()> release) {
     const std::lock_guard lock(record().mutex);
@@ -168,4 +161,4 @@ std::string runtime_description() {
     return text;
 }
 
-} // namespace connectivity
+}  // namespace connectivity

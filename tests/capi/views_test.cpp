@@ -167,9 +167,11 @@ TEST_F(CapiViews, offsets_and_info_agree_with_the_views) {
 TEST(CapiOptions, periodic_axes_join_the_ends_of_a_lattice) {
     const int side = 12;
     NodeSet lattice;  // spacing 1, supports 1.2, from -3 to 8
-    for (int i = 0; i < side * side; ++i)
-        lattice.x.insert(lattice.x.end(), {i % side - 3.0, i / side - 3.0});
-    lattice.h.assign(static_cast<std::size_t>(side * side), 0.6);
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            lattice.x.insert(lattice.x.end(), {column - 3.0, row - 3.0});
+            lattice.h.push_back(0.6);
+        }
     const Context context;
     for (int axes = 0; axes < 4; ++axes) {
         conn_map_options options = CONN_MAP_OPTIONS_INIT;
@@ -178,9 +180,9 @@ TEST(CapiOptions, periodic_axes_join_the_ends_of_a_lattice) {
             options.box_lo[d] = -3;
             options.box_hi[d] = side - 3;
         }
-        const int n_joints = side * (options.periodic[0] + options.periodic[1]);
-        EXPECT_EQ(lists_of(context, 2, {lattice}, options).pairs.size(),
-                  static_cast<std::size_t>(2 * side * (side - 1) + n_joints));
+        const std::int64_t n_joints = side * (options.periodic[0] + options.periodic[1]);
+        EXPECT_EQ(std::ssize(lists_of(context, 2, {lattice}, options).pairs),
+                  2 * side * (side - 1) + n_joints);
     }
 }
 

@@ -22,24 +22,20 @@ inline bool kokkos_is_finalized() {
 #if KOKKOS_VERSION >= 30700
     return Kokkos::is_finalized();
 #else
-    return false; // the finalize hook is the only witness
+    return false;  // the finalize hook is the only witness
 #endif
 }
 
 inline void kokkos_initialize(int n_threads, int device_id) {
 #if KOKKOS_VERSION >= 30700
     Kokkos::InitializationSettings settings;
-    if (n_threads > 0)
-        settings.set_num_threads(n_threads);
-    if (device_id >= 0)
-        settings.set_device_id(device_id);
+    if (n_threads > 0) settings.set_num_threads(n_threads);
+    if (device_id >= 0) settings.set_device_id(device_id);
     settings.set_disable_warnings(true);
 #else
     Kokkos::InitArguments settings;
-    if (n_threads > 0)
-        settings.num_threads = n_threads;
-    if (device_id >= 0)
-        settings.device_id = device_id;
+    if (n_threads > 0) settings.num_threads = n_threads;
+    if (device_id >= 0) settings.device_id = device_id;
     settings.disable_warnings = true;
 #endif
     Kokkos::initialize(settings);
@@ -78,8 +74,7 @@ inline bool inside_parallel_region() {
 /// a thread of its own.
 template <class Body>
 void outside_parallel_region(const Body& body) {
-    if (!inside_parallel_region())
-        return body();
+    if (!inside_parallel_region()) return body();
     std::exception_ptr failure;
     std::thread([&] {
         try {
@@ -88,8 +83,7 @@ void outside_parallel_region(const Body& body) {
             failure = std::current_exception();
         }
     }).join();
-    if (failure)
-        std::rethrow_exception(failure);
+    if (failure) std::rethrow_exception(failure);
 }
 
 /// Keeps the number of threads that the host's own OpenMP regions use; Kokkos sets it when it
@@ -98,9 +92,7 @@ class KeepOpenMPThreads {
 public:
 #if defined(KOKKOS_ENABLE_OPENMP)
     KeepOpenMPThreads() : n_threads_(omp_get_max_threads()) {}
-    ~KeepOpenMPThreads() {
-        omp_set_num_threads(n_threads_);
-    }
+    ~KeepOpenMPThreads() { omp_set_num_threads(n_threads_); }
 
 private:
     int n_threads_;
@@ -122,4 +114,4 @@ private:
     ProfilingRegion& operator=(const ProfilingRegion&) = delete;
 };
 
-} // namespace connectivity::shim
+}  // namespace connectivity::shim
