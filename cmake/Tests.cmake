@@ -20,7 +20,8 @@ if(support)
     set_target_properties(connectivity_test_support PROPERTIES POSITION_INDEPENDENT_CODE OFF)
 endif()
 
-set(CONNECTIVITY_TEST_ENVIRONMENT OMP_PROC_BIND=false)
+# Tests run side by side: threads that wait must not spin.
+set(CONNECTIVITY_TEST_ENVIRONMENT OMP_PROC_BIND=false OMP_WAIT_POLICY=passive)
 if(CONNECTIVITY_SANITIZE)
     list(APPEND CONNECTIVITY_TEST_ENVIRONMENT
         "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0"
