@@ -96,6 +96,7 @@ void Group::set(const std::string& name, const std::string& text) {
 
 void Group::set(const std::string& name, const std::vector<std::string>& texts) {
     std::vector<const char*> data;
+    data.reserve(texts.size());
     for (const auto& text : texts) data.push_back(text.c_str());
     set_raw(name, string_type(), data.data(), static_cast<Offset>(data.size()), false);
 }

@@ -62,7 +62,7 @@ void ResultFile::write(const ConnectivityMap& map, std::span<const NodeList> lis
     root.set("library_version", std::string(CONNECTIVITY_VERSION));
 }
 
-void ResultFile::write_density(const std::string& list, ConstView<double> density,
+void ResultFile::write_density(const std::string& list, const ConstView<double>& density,
                                const std::string& units) {
     auto& root = *state_->root;
     auto group = root.has_group("density") ? root.group("density") : root.create_group("density");

@@ -54,7 +54,7 @@ struct Density {
 
 template <int Dim>
 ConstView<double> density_of_stored(const ConnectivityMap& map, int list, const NodeList& nodes,
-                                    ConstView<double> mass) {
+                                    const ConstView<double>& mass) {
     auto result = allocate<double>("program/density", nodes.n());
     const auto k = static_cast<std::size_t>(list);
     const Density<Dim> functor{
@@ -72,7 +72,7 @@ ConstView<double> density_of_stored(const ConnectivityMap& map, int list, const 
 }  // namespace
 
 ConstView<double> density(const ConnectivityMap& map, int list, const NodeList& nodes,
-                          ConstView<double> mass) {
+                          const ConstView<double>& mass) {
     if (nodes.has_tensor() || static_cast<Offset>(mass.size()) != nodes.n())
         throw Error(Status::argument,
                     "density of '" + nodes.name() + "': needs scalar h and a mass for every node");

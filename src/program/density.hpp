@@ -16,6 +16,6 @@ namespace connectivity::program {
 /// Ghosts without a stored row get one in a search of their own. Throws Error: argument (tensors,
 /// wrong length of mass), memory, budget.
 ConstView<double> density(const ConnectivityMap& map, int list, const NodeList& nodes,
-                          ConstView<double> mass);
+                          const ConstView<double>& mass);
 
 }  // namespace connectivity::program

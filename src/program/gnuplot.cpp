@@ -14,15 +14,13 @@
 
 #include <connectivity/base/error.hpp>
 
-extern char** environ;
-
 namespace connectivity::program {
 
 std::string find_gnuplot() {
     const char* const path = std::getenv("PATH");
     std::istringstream folders(path ? path : "");
     for (std::string folder; std::getline(folders, folder, ':');) {
-        const std::string candidate = (folder.empty() ? "." : folder) + "/gnuplot";
+        std::string candidate = (folder.empty() ? "." : folder) + "/gnuplot";
         if (access(candidate.c_str(), X_OK) == 0) return candidate;
     }
     throw Error(

@@ -159,6 +159,7 @@ void PairsRun::draw() {
     const auto& info = reader_->info();
     const auto drawn = lists_to_draw();
     std::vector<std::string> names;
+    names.reserve(drawn.size());
     for (const auto& list : drawn) names.push_back(list.nodes.name());
     PlotContent content;
     content.dim = info.dim;

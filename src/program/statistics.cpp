@@ -39,7 +39,7 @@ CountStatistics neighbour_statistics(const ConnectivityMap& map, int list, Offse
     return result;
 }
 
-Difference relative_difference(ConstView<double> a, ConstView<double> b) {
+Difference relative_difference(const ConstView<double>& a, const ConstView<double>& b) {
     Difference result;
     double sum = 0;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {

@@ -30,6 +30,6 @@ struct Difference {
     double rms = 0, max = 0;
     Offset n = 0;
 };
-Difference relative_difference(ConstView<double> a, ConstView<double> b);
+Difference relative_difference(const ConstView<double>& a, const ConstView<double>& b);
 
 }  // namespace connectivity::program

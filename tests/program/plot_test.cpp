@@ -28,6 +28,7 @@ TEST(Plot, is_a_png_in_every_dimension) {
     if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not here";
     for (int dim = 1; dim <= 3; ++dim) {
         std::vector<double> x;
+        x.reserve(60);
         for (int i = 0; i < 60; ++i) x.push_back(std::fmod(0.618034 * i, 1.0));
         Case c = uniform_case(dim, x, 0.1);
         c.lists[0].name = "it's_a {list}";

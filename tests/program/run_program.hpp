@@ -33,6 +33,7 @@ inline Outcome run_program(const std::vector<std::string>& arguments,
     const TemporaryFolder folder;
     const auto words = [](const std::vector<std::string>& texts) {
         std::vector<char*> pointers;
+        pointers.reserve(texts.size() + 1);
         for (const auto& text : texts) pointers.push_back(const_cast<char*>(text.c_str()));
         pointers.push_back(nullptr);
         return pointers;

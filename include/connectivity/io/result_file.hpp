@@ -31,7 +31,7 @@ public:
                const std::string& command);
 
     /// Density of the nodes of one list. Throws Error{file}.
-    void write_density(const std::string& list, ConstView<double> density,
+    void write_density(const std::string& list, const ConstView<double>& density,
                        const std::string& units);
 
     /// Closes the file and puts it in its place. Throws Error{file}.
