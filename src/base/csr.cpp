@@ -4,7 +4,8 @@
 namespace connectivity {
 
 Offset Csr::bytes() const {
-    return static_cast<Offset>((offsets_.size() + spare_.size()) * sizeof(Offset) + values_.size() * sizeof(Slot));
+    return static_cast<Offset>((offsets_.size() + spare_.size()) * sizeof(Offset) +
+                               values_.size() * sizeof(Slot));
 }
 
 void Csr::take_spare(Offset n_rows) {
@@ -16,9 +17,11 @@ void Csr::reserve() {
     const bool shared = values_.use_count() > 1;
     grown_ = {};
     if (pending_values_ <= static_cast<Offset>(values_.size()) && !shared) return;
-    const bool growing = values_.size() > 0 && pending_values_ > static_cast<Offset>(values_.size());
+    const bool growing =
+        values_.size() > 0 && pending_values_ > static_cast<Offset>(values_.size());
     // A sixteenth more, so that a slowly growing list does not allocate in every build.
-    grown_ = allocate<Slot>(label_ + "/values", pending_values_ + (growing ? pending_values_ / 16 : 0));
+    grown_ =
+        allocate<Slot>(label_ + "/values", pending_values_ + (growing ? pending_values_ / 16 : 0));
 }
 
 void Csr::publish() {

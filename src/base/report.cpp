@@ -11,7 +11,8 @@
 namespace connectivity {
 
 ReportEntry& Report::entry(std::string_view product) {
-    const auto found = std::find_if(entries_.begin(), entries_.end(), [&](auto& e) { return e.product == product; });
+    const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                    [&](auto& e) { return e.product == product; });
     if (found != entries_.end()) return *found;
     entries_.emplace_back();
     entries_.back().product = product;
@@ -19,19 +20,22 @@ ReportEntry& Report::entry(std::string_view product) {
 }
 
 const ReportEntry* Report::find(std::string_view product) const {
-    const auto found = std::find_if(entries_.begin(), entries_.end(), [&](auto& e) { return e.product == product; });
+    const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                    [&](auto& e) { return e.product == product; });
     return found == entries_.end() ? nullptr : &*found;
 }
 
 std::int64_t& Report::counter(std::string_view name) {
-    const auto found = std::find_if(counters_.begin(), counters_.end(), [&](auto& c) { return c.name == name; });
+    const auto found =
+        std::find_if(counters_.begin(), counters_.end(), [&](auto& c) { return c.name == name; });
     if (found != counters_.end()) return found->value;
     counters_.push_back({std::string(name), 0});
     return counters_.back().value;
 }
 
 std::int64_t Report::count(std::string_view name) const {
-    const auto found = std::find_if(counters_.begin(), counters_.end(), [&](auto& c) { return c.name == name; });
+    const auto found =
+        std::find_if(counters_.begin(), counters_.end(), [&](auto& c) { return c.name == name; });
     return found == counters_.end() ? 0 : found->value;
 }
 
@@ -46,8 +50,9 @@ std::string Report::text() const {
     std::array<char, 128> line{};
     for (const auto& e : entries_) {
         std::snprintf(line.data(), line.size(), "%-12s %-11s %-7s %11s %9.2f  ", e.product.c_str(),
-                      e.asked_by.empty() ? "nobody" : e.asked_by.c_str(), e.built ? (e.reused ? "reused" : "yes") : "no",
-                      human_bytes(e.bytes).c_str(), e.ms);
+                      e.asked_by.empty() ? "nobody" : e.asked_by.c_str(),
+                      e.built ? (e.reused ? "reused" : "yes") : "no", human_bytes(e.bytes).c_str(),
+                      e.ms);
         out += line.data() + e.reason + '\n';
     }
     for (const auto& c : counters_) out += c.name + " = " + std::to_string(c.value) + '\n';

@@ -24,9 +24,10 @@ void advise_huge_pages(void* data, std::size_t bytes) noexcept {
 #endif
 }
 
-void throw_allocation_failed(const std::string& label, Offset n, std::size_t size, const char* why) {
-    throw Error(Status::memory, "allocation of \"" + label + "\" failed: " + std::to_string(n) + " elements of " +
-                                    std::to_string(size) + " bytes: " + why);
+void throw_allocation_failed(const std::string& label, Offset n, std::size_t size,
+                             const char* why) {
+    throw Error(Status::memory, "allocation of \"" + label + "\" failed: " + std::to_string(n) +
+                                    " elements of " + std::to_string(size) + " bytes: " + why);
 }
 
 }  // namespace connectivity::detail

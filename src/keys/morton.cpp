@@ -28,7 +28,8 @@ template <int Dim>
 View<std::uint64_t> morton_keys(ConstView<double> positions, const KeyBox<Dim>& box) {
     const auto n = static_cast<Offset>(positions.size()) / Dim;
     auto keys = allocate<std::uint64_t>("keys/morton", n);
-    Kokkos::parallel_for("keys/morton", Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, n),
+    Kokkos::parallel_for("keys/morton",
+                         Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, n),
                          [=](const Offset i) { keys(i) = box.key(&positions(i * Dim)); });
     HostExec().fence();
     return keys;

@@ -32,19 +32,21 @@ void check_request(std::span<const NodeList> lists, const MapOptions& options) {
     Offset n = 0;
     for (std::size_t l = 0; l < lists.size(); ++l) {
         if (lists[l].dim() != lists[0].dim())
-            throw Error(Status::argument, "rebuild: node list " + std::to_string(l) + " (\"" + lists[l].name() +
-                                              "\") has dim = " + std::to_string(lists[l].dim()) +
-                                              ", the first list has " + std::to_string(lists[0].dim()));
+            throw Error(Status::argument,
+                        "rebuild: node list " + std::to_string(l) + " (\"" + lists[l].name() +
+                            "\") has dim = " + std::to_string(lists[l].dim()) +
+                            ", the first list has " + std::to_string(lists[0].dim()));
         n += lists[l].n();
     }
     if (n > max_slots)
-        throw Error(Status::too_many,
-                    "rebuild: " + std::to_string(n) + " nodes, must be at most " + std::to_string(max_slots));
+        throw Error(Status::too_many, "rebuild: " + std::to_string(n) + " nodes, must be at most " +
+                                          std::to_string(max_slots));
     if (options.pairs && options.mode != SearchMode::gather_scatter)
-        throw Error(Status::argument, "rebuild: pairs exist only for gather_scatter; ask for rows alone");
-    if (options.budget.bytes < 0)
         throw Error(Status::argument,
-                    "rebuild: budget of " + std::to_string(options.budget.bytes) + " bytes, must be >= 0");
+                    "rebuild: pairs exist only for gather_scatter; ask for rows alone");
+    if (options.budget.bytes < 0)
+        throw Error(Status::argument, "rebuild: budget of " + std::to_string(options.budget.bytes) +
+                                          " bytes, must be >= 0");
     options.domain.check(lists[0].dim());
 }
 
@@ -77,15 +79,22 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
     SlotLayout layout = layout_of(lists, options.ghost_rows);
     std::vector<std::string> names;
     std::vector<Offset> n_internal;
-    for (const NodeList& list : lists) names.push_back(list.name()), n_internal.push_back(list.n_internal());
+    for (const NodeList& list : lists)
+        names.push_back(list.name()), n_internal.push_back(list.n_internal());
 
     const Stopwatch preparing;
     const SearchNodes<Dim> nodes = prepare_nodes<Dim>(lists, options.domain, impl_->storage);
     auto& prepared = report.entry("nodes");
-    prepared = {"nodes", "search", lists.size() == 1 ? "checked where they lie" : "checked and laid end to end", true,
-                false, impl_->storage.bytes(), preparing.ms()};
+    prepared = {"nodes",
+                "search",
+                lists.size() == 1 ? "checked where they lie" : "checked and laid end to end",
+                true,
+                false,
+                impl_->storage.bytes(),
+                preparing.ms()};
 
-    const SearchRequest request{options.rows, options.pairs, options.mode, options.method, options.budget};
+    const SearchRequest request{options.rows, options.pairs, options.mode, options.method,
+                                options.budget};
     auto& search = impl_->search<Dim>();
     ConstView<Slot> order;
     if (options.spatial_order) order = search.spatial_order(nodes);
@@ -114,7 +123,9 @@ const NodePairList& ConnectivityMap::pairs() const {
     return pairs_;
 }
 
-NodePairList& ConnectivityMap::pairs() { return const_cast<NodePairList&>(std::as_const(*this).pairs()); }
+NodePairList& ConnectivityMap::pairs() {
+    return const_cast<NodePairList&>(std::as_const(*this).pairs());
+}
 
 ConstView<Slot> ConnectivityMap::spatial_order() const {
     if (generation_ == 0 || !options_.spatial_order)
@@ -125,8 +136,9 @@ ConstView<Slot> ConnectivityMap::spatial_order() const {
 View<Slot> ConnectivityMap::spatial_order(int list) const {
     const ConstView<Slot> all = spatial_order();
     if (list < 0 || list >= layout_.n_lists())
-        throw Error(Status::argument, "spatial_order: list " + std::to_string(list) + ", must be in [0, " +
-                                          std::to_string(layout_.n_lists()) + ")");
+        throw Error(Status::argument, "spatial_order: list " + std::to_string(list) +
+                                          ", must be in [0, " + std::to_string(layout_.n_lists()) +
+                                          ")");
     const Offset first = layout_.list_offset()[list], last = layout_.list_offset()[list + 1];
     auto ids = allocate<Slot>("map/spatial_order", last - first);
     // Internal nodes keep the front of the list: two passes in the common order.

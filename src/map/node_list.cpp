@@ -12,18 +12,22 @@ namespace {
 }  // namespace
 
 void NodeList::check_shape(const char* support_name, Offset n_support, Offset per_node) const {
-    if (dim_ < 1 || dim_ > 3) refuse(name_, "dim = " + std::to_string(dim_) + ", must be 1, 2 or 3");
+    if (dim_ < 1 || dim_ > 3)
+        refuse(name_, "dim = " + std::to_string(dim_) + ", must be 1, 2 or 3");
     const auto n_coordinates = static_cast<Offset>(positions_.size());
     if (n_coordinates % dim_ != 0)
-        refuse(name_, std::to_string(n_coordinates) + " coordinates are no multiple of dim = " + std::to_string(dim_));
+        refuse(name_, std::to_string(n_coordinates) +
+                          " coordinates are no multiple of dim = " + std::to_string(dim_));
     if (n_coordinates / dim_ * per_node != n_support)
-        refuse(name_, std::to_string(n_coordinates / dim_) + " positions but " + std::to_string(n_support) +
-                          " values of " + support_name + ", must be " + std::to_string(per_node) + " a node");
+        refuse(name_, std::to_string(n_coordinates / dim_) + " positions but " +
+                          std::to_string(n_support) + " values of " + support_name + ", must be " +
+                          std::to_string(per_node) + " a node");
     if (n_internal_ < 0 || n_internal_ > n_coordinates / dim_)
         refuse(name_, "n_internal = " + std::to_string(n_internal_) + ", must be in [0, " +
                           std::to_string(n_coordinates / dim_) + "]");
     if (!(kernel_extent_ > 0) || !std::isfinite(kernel_extent_))
-        refuse(name_, "kernel_extent = " + std::to_string(kernel_extent_) + ", must be > 0 and finite");
+        refuse(name_,
+               "kernel_extent = " + std::to_string(kernel_extent_) + ", must be > 0 and finite");
 }
 
 NodeList NodeList::with_h(std::string name, int dim, Offset n_internal, ConstView<double> positions,

@@ -13,11 +13,13 @@ NodePairList::View<> NodePairList::expanded_view() {
         ensure_capacity(first_, "map/pairs/i", size());
         const auto offsets = expanded.offsets;
         const auto first = first_;
-        Kokkos::parallel_for("map/pairs/expand",
-                             Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, half_rows_.n_rows()),
-                             [=](const Offset i) {
-                                 for (Offset k = offsets(i); k < offsets(i + 1); ++k) first(k) = static_cast<Slot>(i);
-                             });
+        Kokkos::parallel_for(
+            "map/pairs/expand",
+            Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, half_rows_.n_rows()),
+            [=](const Offset i) {
+                for (Offset k = offsets(i); k < offsets(i + 1); ++k)
+                    first(k) = static_cast<Slot>(i);
+            });
         HostExec().fence();
         first_generation_ = generation_;
     }

@@ -14,9 +14,9 @@ namespace {
 template <int Dim>
 struct ListReader {
     const double* positions;
-    const double* h;  // nullptr for tensors
-    const double* H;  // nullptr for scalars
-    double extent;    // maximum over all lists
+    const double* h;                      // nullptr for tensors
+    const double* H;                      // nullptr for scalars
+    double extent;                        // maximum over all lists
     std::array<double, Dim> half_length;  // of periodic axes, infinity elsewhere
 
     double reach(double radius) const { return extent * radius; }
@@ -25,7 +25,8 @@ struct ListReader {
     Fault examine(Offset node, double& reach2) const {
         for (int d = 0; d < Dim; ++d)
             if (!std::isfinite(positions[node * Dim + d])) return Fault::position;
-        return h != nullptr ? examine_scalar(h[node], reach2) : examine_tensor(H + node * n_symmetric(Dim), reach2);
+        return h != nullptr ? examine_scalar(h[node], reach2)
+                            : examine_tensor(H + node * n_symmetric(Dim), reach2);
     }
 
 private:
@@ -50,10 +51,14 @@ private:
 
 template <int Dim>
 ListReader<Dim> reader(const NodeList& list, double extent, const Domain& domain) {
-    ListReader<Dim> r{list.positions().data(), list.has_tensor() ? nullptr : list.h().data(),
-                      list.has_tensor() ? list.H().data() : nullptr, extent, {}};
+    ListReader<Dim> r{list.positions().data(),
+                      list.has_tensor() ? nullptr : list.h().data(),
+                      list.has_tensor() ? list.H().data() : nullptr,
+                      extent,
+                      {}};
     for (int d = 0; d < Dim; ++d)
-        r.half_length[d] = domain.periodic[d] ? 0.5 * domain.length(d) : std::numeric_limits<double>::infinity();
+        r.half_length[d] =
+            domain.periodic[d] ? 0.5 * domain.length(d) : std::numeric_limits<double>::infinity();
     return r;
 }
 
@@ -78,7 +83,8 @@ std::string number(double value) {
 
 /// Says what is wrong with the first offending node and how many share its fault.
 template <int Dim>
-[[noreturn]] void report_fault(const ListReader<Dim>& read, std::span<const NodeList> lists, std::size_t l, Offset node) {
+[[noreturn]] void report_fault(const ListReader<Dim>& read, std::span<const NodeList> lists,
+                               std::size_t l, Offset node) {
     double reach2 = 0;
     const Fault fault = read.examine(node, reach2);
     Offset count = 0;
@@ -89,7 +95,8 @@ template <int Dim>
     if (fault == Fault::position) {
         int d = 0;
         while (std::isfinite(read.positions[node * Dim + d])) ++d;
-        text += "position[" + std::to_string(d) + "] = " + number(read.positions[node * Dim + d]) + ", must be finite";
+        text += "position[" + std::to_string(d) + "] = " + number(read.positions[node * Dim + d]) +
+                ", must be finite";
     } else if (fault == Fault::support) {
         status = Status::support;
         text += "h = " + number(read.h[node]) + ", must be finite and >= 0";
@@ -101,12 +108,15 @@ template <int Dim>
         text += "), must be finite and positive definite";
     } else {
         status = Status::half_box;
-        if (read.h != nullptr) text += "support radius " + number(read.extent * read.h[node]) + " is";
-        else text += "the half width of the support is";
+        if (read.h != nullptr)
+            text += "support radius " + number(read.extent * read.h[node]) + " is";
+        else
+            text += "the half width of the support is";
         text += " larger than half the length of a periodic axis, " +
                 number(*std::min_element(read.half_length.begin(), read.half_length.end()));
     }
-    throw Error(status, text + "; " + std::to_string(count) + " such node" + (count > 1 ? "s" : "") + " in this list");
+    throw Error(status, text + "; " + std::to_string(count) + " such node" +
+                            (count > 1 ? "s" : "") + " in this list");
 }
 
 template <int Dim>
@@ -121,34 +131,41 @@ void append(View<double> to, Offset at, const ConstView<double>& from) {
     double* const out = to.data() + at;
     const double* const in = from.data();
     Kokkos::parallel_for("map/join",
-                         Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, static_cast<Offset>(from.size())),
+                         Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(
+                             0, static_cast<Offset>(from.size())),
                          [=](const Offset i) { out[i] = in[i]; });
 }
 
 /// Positions of all lists, joined only if there is more than one.
 template <int Dim>
-ConstView<double> join_positions(std::span<const NodeList> lists, Offset n, PreparedStorage& storage) {
+ConstView<double> join_positions(std::span<const NodeList> lists, Offset n,
+                                 PreparedStorage& storage) {
     if (lists.size() == 1) return lists[0].positions();
     ensure_capacity(storage.positions, "map/positions", n * Dim);
     Offset at = 0;
-    for (const NodeList& list : lists) append(storage.positions, at, list.positions()), at += list.n() * Dim;
+    for (const NodeList& list : lists)
+        append(storage.positions, at, list.positions()), at += list.n() * Dim;
     HostExec().fence();
     return Kokkos::subview(storage.positions, std::pair<std::size_t, std::size_t>(0, n * Dim));
 }
 
 /// Tensors of all lists: empty if none has any; zeros stand for nodes with scalar h.
 template <int Dim>
-ConstView<double> join_tensors(std::span<const NodeList> lists, Offset n, PreparedStorage& storage) {
-    if (std::none_of(lists.begin(), lists.end(), [](const NodeList& l) { return l.has_tensor(); })) return {};
+ConstView<double> join_tensors(std::span<const NodeList> lists, Offset n,
+                               PreparedStorage& storage) {
+    if (std::none_of(lists.begin(), lists.end(), [](const NodeList& l) { return l.has_tensor(); }))
+        return {};
     if (lists.size() == 1) return lists[0].H();
     constexpr Offset size = n_symmetric(Dim);
     ensure_capacity(storage.H, "map/H", n * size);
     Offset at = 0;
     for (const NodeList& list : lists) {
-        if (list.has_tensor()) append(storage.H, at, list.H());
+        if (list.has_tensor())
+            append(storage.H, at, list.H());
         else
-            Kokkos::deep_copy(
-                Kokkos::subview(storage.H, std::pair<std::size_t, std::size_t>(at, at + list.n() * size)), 0.0);
+            Kokkos::deep_copy(Kokkos::subview(storage.H, std::pair<std::size_t, std::size_t>(
+                                                             at, at + list.n() * size)),
+                              0.0);
         at += list.n() * size;
     }
     HostExec().fence();
@@ -158,7 +175,8 @@ ConstView<double> join_tensors(std::span<const NodeList> lists, Offset n, Prepar
 }  // namespace
 
 template <int Dim>
-SearchNodes<Dim> prepare_nodes(std::span<const NodeList> lists, const Domain& domain, PreparedStorage& storage) {
+SearchNodes<Dim> prepare_nodes(std::span<const NodeList> lists, const Domain& domain,
+                               PreparedStorage& storage) {
     SearchNodes<Dim> nodes;
     const double extent = largest_extent<Dim>(lists);
     for (const NodeList& list : lists) nodes.n += list.n();
@@ -177,8 +195,11 @@ SearchNodes<Dim> prepare_nodes(std::span<const NodeList> lists, const Domain& do
     return nodes;
 }
 
-template SearchNodes<1> prepare_nodes<1>(std::span<const NodeList>, const Domain&, PreparedStorage&);
-template SearchNodes<2> prepare_nodes<2>(std::span<const NodeList>, const Domain&, PreparedStorage&);
-template SearchNodes<3> prepare_nodes<3>(std::span<const NodeList>, const Domain&, PreparedStorage&);
+template SearchNodes<1> prepare_nodes<1>(std::span<const NodeList>, const Domain&,
+                                         PreparedStorage&);
+template SearchNodes<2> prepare_nodes<2>(std::span<const NodeList>, const Domain&,
+                                         PreparedStorage&);
+template SearchNodes<3> prepare_nodes<3>(std::span<const NodeList>, const Domain&,
+                                         PreparedStorage&);
 
 }  // namespace connectivity

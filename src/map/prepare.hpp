@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// From node lists to what the search reads: one checking pass, supports as squared radii, lists laid end to end.
+/// From node lists to what the search reads: one checking pass, supports as squared radii, lists
+/// laid end to end.
 ///
-/// A single list is read where it lies. Several lists are copied into storage that is reused from build to build.
+/// A single list is read where it lies. Several lists are copied into storage that is reused from
+/// build to build.
 
 #include <span>
 
@@ -19,9 +21,11 @@ struct PreparedStorage {
     }
 };
 
-/// Checks every value and lays the lists end to end. Throws Error{nonfinite | support | not_spd | half_box} with the first
-/// offending node in slot order and the number of nodes that offend in the same way.
+/// Checks every value and lays the lists end to end. Throws Error{nonfinite | support | not_spd |
+/// half_box} with the first offending node in slot order and the number of nodes that offend in the
+/// same way.
 template <int Dim>
-SearchNodes<Dim> prepare_nodes(std::span<const NodeList> lists, const Domain& domain, PreparedStorage& storage);
+SearchNodes<Dim> prepare_nodes(std::span<const NodeList> lists, const Domain& domain,
+                               PreparedStorage& storage);
 
 }  // namespace connectivity

@@ -38,7 +38,8 @@ bool cholesky(const Matrix<Dim>& a, Matrix<Dim>& l) {
     return true;
 }
 
-/// Largest eigenvalue of a symmetric positive matrix from above: exact for diagonal ones, at most 1.15 times for others.
+/// Largest eigenvalue of a symmetric positive matrix from above: exact for diagonal ones, at
+/// most 1.15 times for others.
 template <int Dim>
 double norm_bound(const Matrix<Dim>& a) {
     const double row_sum = a.cwiseAbs().rowwise().sum().maxCoeff();
@@ -62,7 +63,8 @@ TensorSupport<Dim> tensor_support(const double* packed) {
         }
     const Matrix<Dim> inverse = inverse_l.transpose() * inverse_l;
     for (int d = 0; d < Dim; ++d) support.half_width[d] = inverse.col(d).norm();
-    // Inverse and |H r|² carry a relative error of a few units of roundoff times the condition number.
+    // Inverse and |H r|² carry a relative error of a few units of roundoff times the condition
+    // number.
     const double reach = norm_bound<Dim>(inverse), condition = reach * norm_bound<Dim>(h);
     const double slack = 64 * std::numeric_limits<double>::epsilon() * condition;
     support.positive_definite = true;

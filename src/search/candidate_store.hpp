@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// Memory of candidate lists, and the one sort by label that makes all rows of a block come out sorted.
+/// Memory of candidate lists, and the one sort by label that makes all rows of a block come out
+/// sorted.
 
 #include <algorithm>
 #include <cstdint>
@@ -41,7 +42,8 @@ public:
 
     /// Room for n candidates and what kernels write beyond; those in the list survive.
     void reserve(int n) {
-        const auto size = static_cast<std::size_t>(n) + list_slack, keep = static_cast<std::size_t>(list.n);
+        const auto size = static_cast<std::size_t>(n) + list_slack,
+                   keep = static_cast<std::size_t>(list.n);
         for (int d = 0; d < Dim; ++d) x_[d].reserve(size, keep), list.x[d] = x_[d].data();
         t_.reserve(size, keep), list.t = t_.data();
         label_.reserve(size, keep), list.label = label_.data();
@@ -62,7 +64,8 @@ class LabelSort {
 public:
     /// Sorts `in` into `out` (room reserved), labels < 2^label_bits, and pads `out`.
     template <int Dim>
-    void operator()(const CandidateList<Dim>& in, int label_bits, bool uniform, CandidateList<Dim>& out);
+    void operator()(const CandidateList<Dim>& in, int label_bits, bool uniform,
+                    CandidateList<Dim>& out);
 
 private:
     static constexpr int digit_bits = 11;
@@ -71,12 +74,17 @@ private:
 };
 
 template <int Dim>
-void LabelSort::operator()(const CandidateList<Dim>& in, int label_bits, bool uniform, CandidateList<Dim>& out) {
-    const int n = in.n, passes = label_bits <= digit_bits ? 1 : label_bits <= 2 * digit_bits ? 2 : 3;
+void LabelSort::operator()(const CandidateList<Dim>& in, int label_bits, bool uniform,
+                           CandidateList<Dim>& out) {
+    const int n = in.n, passes = label_bits <= digit_bits       ? 1
+                                 : label_bits <= 2 * digit_bits ? 2
+                                                                : 3;
     const int width = (label_bits + passes - 1) / passes;
     const std::uint32_t mask = (1u << width) - 1;
     for (int pass = 0; pass < passes; ++pass) std::fill_n(count_[pass], mask + 1, 0u);
-    const auto digit = [&](int k, int pass) { return static_cast<std::uint32_t>(in.label[k]) >> (pass * width) & mask; };
+    const auto digit = [&](int k, int pass) {
+        return static_cast<std::uint32_t>(in.label[k]) >> (pass * width) & mask;
+    };
     for (int k = 0; k < n; ++k)
         for (int pass = 0; pass < passes; ++pass) ++count_[pass][digit(k, pass)];
     for (int pass = 0; pass < passes; ++pass) {

@@ -18,20 +18,23 @@ Extremes extremes_along(const SearchNodes<Dim>& nodes, int d) {
     const double* const x = nodes.positions.data();
     Kokkos::MinMaxScalar<double> range{};
     Kokkos::parallel_reduce(
-        "search/cells/extremes", Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, nodes.n),
+        "search/cells/extremes",
+        Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, nodes.n),
         [=](const Offset i, Kokkos::MinMaxScalar<double>& r) {
             r.min_val = std::min(r.min_val, x[i * Dim + d]);
             r.max_val = std::max(r.max_val, x[i * Dim + d]);
         },
         Kokkos::MinMax<double>(range));
-    return {range.min_val, range.max_val, std::max(std::fabs(range.min_val), std::fabs(range.max_val))};
+    return {range.min_val, range.max_val,
+            std::max(std::fabs(range.min_val), std::fabs(range.max_val))};
 }
 
 double largest_reach(const ConstView<double>& reach2) {
     double largest = 0;
     Kokkos::parallel_reduce(
         "search/cells/largest_reach", Kokkos::RangePolicy<HostExec>(0, reach2.size()),
-        [=](const std::size_t i, double& m) { m = std::max(m, reach2(i)); }, Kokkos::Max<double>(largest));
+        [=](const std::size_t i, double& m) { m = std::max(m, reach2(i)); },
+        Kokkos::Max<double>(largest));
     return std::sqrt(std::max(0.0, largest));
 }
 
@@ -39,19 +42,22 @@ double largest_reach(const ConstView<double>& reach2) {
 
 template <int Dim>
 Cells<Dim>::Cells(const SearchNodes<Dim>& nodes) : positions_(nodes.positions.data()) {
-    // A cell is wider than the reach by more than rounding can move a node, and no axis has more than 2^30 cells.
+    // A cell is wider than the reach by more than rounding can move a node, and no axis has more
+    // than 2^30 cells.
     width_ = largest_reach(nodes.reach2) * (1 + 1e-6);
     Extremes box[Dim];
     for (int d = 0; d < Dim && nodes.n > 0; ++d) {
         box[d] = extremes_along(nodes, d);
         const bool wraps = nodes.periods.length[d] > 0;
-        width_ = std::max(width_, wraps ? box[d].magnitude * 0x1p-29 : (0.5 * box[d].hi - 0.5 * box[d].lo) * 0x1p-28);
+        width_ = std::max(width_, wraps ? box[d].magnitude * 0x1p-29
+                                        : (0.5 * box[d].hi - 0.5 * box[d].lo) * 0x1p-28);
     }
     if (!(width_ > 0)) width_ = 1;
     for (int d = 0; d < Dim && nodes.n > 0; ++d) {
         period_[d] = nodes.periods.length[d];
         origin_[d] = box[d].lo;
-        count_[d] = period_[d] > 0 ? static_cast<Index>(std::clamp(period_[d] / width_, 1.0, 0x1p30)) : 0;
+        count_[d] =
+            period_[d] > 0 ? static_cast<Index>(std::clamp(period_[d] / width_, 1.0, 0x1p30)) : 0;
     }
     fill(nodes.n);
 }
@@ -93,15 +99,19 @@ void Cells<Dim>::fill(Offset n) {
     Kokkos::parallel_for("search/cells/count", all, [this, start](const Offset i) {
         Kokkos::atomic_add(&start(static_cast<Offset>(hash(cell(i)) & mask_)), Offset{1});
     });
-    Kokkos::parallel_scan("search/cells/scan", Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, buckets + 1),
+    Kokkos::parallel_scan("search/cells/scan",
+                          Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, buckets + 1),
                           [=](const Offset b, Offset& sum, const bool final) {
                               const Offset length = start(b);
                               sum += length;
-                              if (final) start(b) = sum;  // the end of the bucket; filling moves it to the start
+                              if (final)
+                                  start(b) =
+                                      sum;  // the end of the bucket; filling moves it to the start
                           });
     Kokkos::parallel_for("search/cells/fill", all, [this, start](const Offset i) {
         const Cell c = cell(i);
-        const Offset at = Kokkos::atomic_fetch_add(&start(static_cast<Offset>(hash(c) & mask_)), Offset{-1}) - 1;
+        const Offset at =
+            Kokkos::atomic_fetch_add(&start(static_cast<Offset>(hash(c) & mask_)), Offset{-1}) - 1;
         slot_(at) = static_cast<Slot>(i);
         cell_(at) = c;
     });

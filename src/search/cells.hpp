@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// A hashed grid of cells as wide as the largest reach: candidates are the nodes of the 3^Dim cells around a node.
+/// A hashed grid of cells as wide as the largest reach: candidates are the nodes of the 3^Dim cells
+/// around a node.
 ///
-/// Invariants: two nodes within the largest reach of each other, wrapped or not, live in equal or adjacent cells; a cell
-/// is visited once even where a periodic axis has fewer than three cells. Memory is O(N), however far nodes are apart.
-/// Cost: O(N) for supports of one size; one giant support makes every cell as wide as itself.
+/// Invariants: two nodes within the largest reach of each other, wrapped or not, live in equal or
+/// adjacent cells; a cell is visited once even where a periodic axis has fewer than three cells.
+/// Memory is O(N), however far nodes are apart. Cost: O(N) for supports of one size; one giant
+/// support makes every cell as wide as itself.
 
 #include <array>
 #include <cstdint>
@@ -36,7 +38,8 @@ private:
 
     static std::uint64_t hash(const Cell& c) {
         std::uint64_t h = 0;
-        for (int d = 0; d < Dim; ++d) h = (h ^ static_cast<std::uint32_t>(c[d])) * 0x9E3779B97F4A7C15ULL;
+        for (int d = 0; d < Dim; ++d)
+            h = (h ^ static_cast<std::uint32_t>(c[d])) * 0x9E3779B97F4A7C15ULL;
         return h ^ h >> 32;
     }
 
@@ -68,7 +71,8 @@ private:
     void visit_cell(const Cell& c, const F& f) const {
         const auto bucket = static_cast<Offset>(hash(c) & mask_);
         for (Offset k = start_(bucket); k < start_(bucket + 1); ++k)
-            if (cell_(k) == c) f(static_cast<Offset>(slot_(k)));  // other cells may share the bucket
+            if (cell_(k) == c)
+                f(static_cast<Offset>(slot_(k)));  // other cells may share the bucket
     }
 
     void fill(Offset n);

@@ -2,8 +2,9 @@
 #pragma once
 /// Rows by testing each node against a superset of its neighbours, one node at a time.
 ///
-/// `Candidates::visit(i, f)` calls f(j) for every j that may interact with i, each once, i itself included or not.
-/// Cost: every pair is tested twice a pass, in two passes (count, fill); a row is sorted after it is filled.
+/// `Candidates::visit(i, f)` calls f(j) for every j that may interact with i, each once, i itself
+/// included or not. Cost: every pair is tested twice a pass, in two passes (count, fill); a row is
+/// sorted after it is filled.
 
 #include <algorithm>
 
@@ -14,20 +15,22 @@ namespace connectivity::detail {
 template <int Dim, class Candidates>
 class DirectBuild {
 public:
-    DirectBuild(const Candidates& candidates, const SearchNodes<Dim>& nodes, const SlotLayout& layout,
-                const SearchRequest& request)
+    DirectBuild(const Candidates& candidates, const SearchNodes<Dim>& nodes,
+                const SlotLayout& layout, const SearchRequest& request)
         : candidates_(candidates), see_(significance(nodes)), layout_(layout), request_(request) {}
 
     void run(Products products) {
         count();
-        products.prepare({request_.rows, request_.half_rows, row_counts_.data(), half_counts_.data()}, layout_,
-                         request_.budget);
+        products.prepare(
+            {request_.rows, request_.half_rows, row_counts_.data(), half_counts_.data()}, layout_,
+            request_.budget);
         if (request_.rows) fill_rows(products.rows);
         if (request_.half_rows) fill_halves(products.halves);
     }
 
 private:
-    using Slots = Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>, Kokkos::Schedule<Kokkos::Dynamic>>;
+    using Slots =
+        Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>, Kokkos::Schedule<Kokkos::Dynamic>>;
 
     /// f(j) for every significant j != i.
     template <class F>
@@ -38,22 +41,29 @@ private:
     }
 
     /// Does the pair {i, j}, j after i, stand in the half row of i?
-    bool is_partner(Offset i, Offset j, bool stored) const { return j > i && (stored || layout_.is_stored(j)); }
+    bool is_partner(Offset i, Offset j, bool stored) const {
+        return j > i && (stored || layout_.is_stored(j));
+    }
 
     void count() {
         const int n_lists = layout_.n_lists();
-        if (request_.rows) row_counts_ = allocate_zeroed<Slot>("search/direct/row_counts", layout_.n_rows() * n_lists);
-        if (request_.half_rows) half_counts_ = allocate_zeroed<Slot>("search/direct/half_counts", layout_.n_slots());
-        Kokkos::parallel_for("search/direct/count", Slots(0, layout_.n_slots()), [this, n_lists](const Offset i) {
-            const Offset row = layout_.row_of_slot(i);
-            Slot* const by_list = request_.rows && row >= 0 ? row_counts_.data() + row * n_lists : nullptr;
-            Slot partners = 0;
-            neighbours(i, [&](Offset j) {
-                if (by_list != nullptr) ++by_list[layout_.list_of_slot(j)];
-                partners += is_partner(i, j, row >= 0);
+        if (request_.rows)
+            row_counts_ =
+                allocate_zeroed<Slot>("search/direct/row_counts", layout_.n_rows() * n_lists);
+        if (request_.half_rows)
+            half_counts_ = allocate_zeroed<Slot>("search/direct/half_counts", layout_.n_slots());
+        Kokkos::parallel_for(
+            "search/direct/count", Slots(0, layout_.n_slots()), [this, n_lists](const Offset i) {
+                const Offset row = layout_.row_of_slot(i);
+                Slot* const by_list =
+                    request_.rows && row >= 0 ? row_counts_.data() + row * n_lists : nullptr;
+                Slot partners = 0;
+                neighbours(i, [&](Offset j) {
+                    if (by_list != nullptr) ++by_list[layout_.list_of_slot(j)];
+                    partners += is_partner(i, j, row >= 0);
+                });
+                if (request_.half_rows) half_counts_(i) = partners;
             });
-            if (request_.half_rows) half_counts_(i) = partners;
-        });
         HostExec().fence();
     }
 
@@ -63,7 +73,8 @@ private:
             [this, n_lists](Offset first, Offset last, const Offset* offsets, Slot* values) {
                 for (Offset row = first / n_lists; row < last / n_lists; ++row) {
                     Slot* end = values + offsets[row * n_lists];
-                    neighbours(layout_.slot_of_row(row), [&](Offset j) { *end++ = static_cast<Slot>(j); });
+                    neighbours(layout_.slot_of_row(row),
+                               [&](Offset j) { *end++ = static_cast<Slot>(j); });
                     std::sort(values + offsets[row * n_lists], end);
                 }
             },

@@ -2,12 +2,14 @@
 #pragma once
 /// The float frame of a few leaves, and the proof that its tests lose no pair.
 ///
-/// Positions are x = fl((p - c) s) with |x - x*| <= u |x*|, u = 2^-24 (the subtraction is done in double). For a node of
-/// the frame |x*| <= M, for one at distance r from it |x*| <= M + r. Differences, squares and sums add a few units more,
-/// so that near a threshold t = r² the computed squared distance is off by at most
+/// Positions are x = fl((p - c) s) with |x - x*| <= u |x*|, u = 2^-24 (the subtraction is done in
+/// double). For a node of the frame |x*| <= M, for one at distance r from it |x*| <= M + r.
+/// Differences, squares and sums add a few units more, so that near a threshold t = r² the computed
+/// squared distance is off by at most
 ///     e = u (7 M / sqrt(t) + 16) + 8 w / sqrt(t),
-/// w being what folding into a periodic box moved a node. Hence d <= t (1 - e) is certain, d > t (1 + e) certainly not,
-/// and between them the double predicate decides. A frame whose e is large is split; see GroupWorker.
+/// w being what folding into a periodic box moved a node. Hence d <= t (1 - e) is certain, d > t (1
+/// + e) certainly not, and between them the double predicate decides. A frame whose e is large is
+/// split; see GroupWorker.
 
 #include <cmath>
 
@@ -25,14 +27,16 @@ struct Frame {
 
     static constexpr double largest_error = 1.0 / 16;
 
-    Frame(const ReachBox<Dim>& nodes, const GroupBoxes<Dim>& boxes) : box(nodes), uniform(boxes.uniform()) {
+    Frame(const ReachBox<Dim>& nodes, const GroupBoxes<Dim>& boxes)
+        : box(nodes), uniform(boxes.uniform()) {
         double half = 0;
         for (int d = 0; d < Dim; ++d) {
             centre[d] = 0.5 * box.lo[d] + 0.5 * box.hi[d];
             half = std::max({half, box.hi[d] - centre[d], centre[d] - box.lo[d]});
         }
         // Nodes that see nobody meet thresholds of others only: the least of all bounds them.
-        const double least2 = box.reach2 < 0 ? boxes.all().least : box.least, least = std::sqrt(least2);
+        const double least2 = box.reach2 < 0 ? boxes.all().least : box.least,
+                     least = std::sqrt(least2);
         if (!(least > 0) || !std::isfinite(least)) return;
         scale = std::exp2(-std::ilogb(least));
         const bool in_range = half * scale < 1e15 && boxes.all().reach2 * scale * scale < 1e30;
@@ -60,7 +64,8 @@ struct Frame {
     FrameBox<Dim> inside(const ReachBox<Dim>& b, double slack) const {
         FrameBox<Dim> f;
         for (int d = 0; d < Dim; ++d) {
-            const double lo = (b.lo[d] - slack - centre[d]) * scale, hi = (b.hi[d] + slack - centre[d]) * scale;
+            const double lo = (b.lo[d] - slack - centre[d]) * scale,
+                         hi = (b.hi[d] + slack - centre[d]) * scale;
             f.lo[d] = static_cast<float>(lo - std::fabs(lo) * 0x1p-22);
             f.hi[d] = static_cast<float>(hi + std::fabs(hi) * 0x1p-22);
         }

@@ -8,7 +8,8 @@
 namespace connectivity::detail {
 
 template <int Dim>
-void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrder& order, Offset leaf) {
+void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrder& order,
+                                  Offset leaf) {
     constexpr Offset look_ahead = 4 * leaf_size;  // hides the random reads of the caller's arrays
     const Slot* const slot = order.slot.data() + leaf * leaf_size;
     const bool fetch = (leaf + 5) * leaf_size <= static_cast<Offset>(order.slot.size());
@@ -20,18 +21,21 @@ void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrde
     for (int k = 0; k < leaf_size; ++k) {
         if (fetch && slot[k + look_ahead] >= 0) {
             __builtin_prefetch(positions + static_cast<Offset>(slot[k + look_ahead]) * Dim);
-            __builtin_prefetch(positions + static_cast<Offset>(slot[k + look_ahead]) * Dim + Dim - 1);
+            __builtin_prefetch(positions + static_cast<Offset>(slot[k + look_ahead]) * Dim + Dim -
+                               1);
             __builtin_prefetch(reach2 + slot[k + look_ahead]);
         }
         if (slot[k] < 0) {
-            for (int d = 0; d < Dim; ++d) data[d * leaf_size + k] = std::numeric_limits<double>::infinity();
+            for (int d = 0; d < Dim; ++d)
+                data[d * leaf_size + k] = std::numeric_limits<double>::infinity();
             data[Dim * leaf_size + k] = -1;
             continue;
         }
         double x[Dim];
         for (int d = 0; d < Dim; ++d)
-            data[d * leaf_size + k] = x[d] = nodes.periods.any ? folded(nodes, slot[k], d)
-                                                                : positions[static_cast<Offset>(slot[k]) * Dim + d];
+            data[d * leaf_size + k] = x[d] =
+                nodes.periods.any ? folded(nodes, slot[k], d)
+                                  : positions[static_cast<Offset>(slot[k]) * Dim + d];
         data[Dim * leaf_size + k] = reach2[slot[k]];
         box.add(x, reach2[slot[k]]);
     }
@@ -39,13 +43,15 @@ void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrde
 }
 
 template <int Dim>
-void GroupBoxes<Dim>::gather_tree(const SearchNodes<Dim>& nodes, const GroupOrder& order, const ClassTree& tree) {
+void GroupBoxes<Dim>::gather_tree(const SearchNodes<Dim>& nodes, const GroupOrder& order,
+                                  const ClassTree& tree) {
     const Offset n = tree.n_blocks;
     ReachBox<Dim>* const box = tree_nodes_.data() + tree.first_node;
     for_each_dynamic("search/groups/gather", n, [&](int, Offset b) {
         ReachBox<Dim> block;
         block.clear();
-        for (Offset l = order.block_leaf[tree.first_block + b]; l < order.block_leaf[tree.first_block + b + 1]; ++l) {
+        for (Offset l = order.block_leaf[tree.first_block + b];
+             l < order.block_leaf[tree.first_block + b + 1]; ++l) {
             gather_leaf(nodes, order, l);
             block.add(leaves_(l));
         }
@@ -63,7 +69,8 @@ double GroupBoxes<Dim>::spread_of(const ReachBox<Dim>& block) const {
     const double reach2 = block.reach2 > 0 ? block.reach2 : all_.least;
     if (block.empty() || !(reach2 > 0) || !std::isfinite(reach2)) return 0;
     double product = 1;
-    for (int d = 0; d < Dim; ++d) product *= std::min((block.hi[d] - block.lo[d]) / std::sqrt(reach2), 1e6) + 2;
+    for (int d = 0; d < Dim; ++d)
+        product *= std::min((block.hi[d] - block.lo[d]) / std::sqrt(reach2), 1e6) + 2;
     return product;
 }
 
@@ -87,8 +94,10 @@ void GroupBoxes<Dim>::gather(const SearchNodes<Dim>& nodes, const GroupOrder& or
         double largest = 0;
         const double* const x = nodes.positions.data();
         Kokkos::parallel_reduce(
-            "search/groups/largest", Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, nodes.n * Dim),
-            [=](const Offset i, double& m) { m = std::max(m, std::fabs(x[i])); }, Kokkos::Max<double>(largest));
+            "search/groups/largest",
+            Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, nodes.n * Dim),
+            [=](const Offset i, double& m) { m = std::max(m, std::fabs(x[i])); },
+            Kokkos::Max<double>(largest));
         for (int d = 0; d < Dim; ++d) largest = std::max(largest, nodes.periods.length[d]);
         fold_error_ = 8 * std::numeric_limits<double>::epsilon() * largest;
     }

@@ -2,10 +2,10 @@
 #pragma once
 /// Nodes gathered in search order, with boxes around leaves and tree nodes.
 ///
-/// Invariants: boxes hold the gathered positions exactly, so that the computed gap of two boxes never exceeds the computed
-/// distance of two of their nodes (rounding is monotone); on periodic axes positions are folded into [0, L), which moves
-/// them by at most `fold_error`.
-/// Cost: one read of positions and reaches in random order, 8 (Dim + 1) bytes a node written; every build.
+/// Invariants: boxes hold the gathered positions exactly, so that the computed gap of two boxes
+/// never exceeds the computed distance of two of their nodes (rounding is monotone); on periodic
+/// axes positions are folded into [0, L), which moves them by at most `fold_error`. Cost: one read
+/// of positions and reaches in random order, 8 (Dim + 1) bytes a node written; every build.
 
 #include <algorithm>
 #include <limits>
@@ -23,12 +23,14 @@ struct ReachBox {
 
     void clear() {
         for (int d = 0; d < Dim; ++d)
-            lo[d] = std::numeric_limits<double>::infinity(), hi[d] = -std::numeric_limits<double>::infinity();
+            lo[d] = std::numeric_limits<double>::infinity(),
+            hi[d] = -std::numeric_limits<double>::infinity();
         reach2 = -1;
         least = std::numeric_limits<double>::infinity();
     }
     void add(const ReachBox& b) {
-        for (int d = 0; d < Dim; ++d) lo[d] = std::min(lo[d], b.lo[d]), hi[d] = std::max(hi[d], b.hi[d]);
+        for (int d = 0; d < Dim; ++d)
+            lo[d] = std::min(lo[d], b.lo[d]), hi[d] = std::max(hi[d], b.hi[d]);
         reach2 = std::max(reach2, b.reach2);
         least = std::min(least, b.least);
     }
@@ -40,8 +42,8 @@ struct ReachBox {
     bool empty() const { return !(lo[0] <= hi[0]); }
 };
 
-/// May nodes of a and b interact? The sum runs over the axes in the order of the predicate. Boxes that touch always may:
-/// a node that sees nobody must still find itself.
+/// May nodes of a and b interact? The sum runs over the axes in the order of the predicate. Boxes
+/// that touch always may: a node that sees nobody must still find itself.
 template <int Dim>
 inline bool is_near(const ReachBox<Dim>& a, const ReachBox<Dim>& b, double slack) {
     double sum = 0;
@@ -63,14 +65,16 @@ public:
     const ReachBox<Dim>& leaf(Offset l) const { return leaves_(l); }
     const ReachBox<Dim>& tree_node(Offset k) const { return tree_nodes_(k); }
     const double* leaf_data(Offset l) const { return data_.data() + l * leaf_stride; }
-    LeafArray leaf_array(const GroupOrder& order) const { return {data_.data(), order.slot.data(), leaf_stride}; }
+    LeafArray leaf_array(const GroupOrder& order) const {
+        return {data_.data(), order.slot.data(), leaf_stride};
+    }
 
     double fold_error() const { return fold_error_; }
     const ReachBox<Dim>& all() const { return all_; }
     bool uniform() const { return all_.reach2 == all_.least && all_.reach2 > 0 && !blind_; }
 
-    /// How wide blocks are for their reach: sum over blocks of the product of (width / reach + 2). Grows as nodes drift
-    /// away from the order.
+    /// How wide blocks are for their reach: sum over blocks of the product of (width / reach + 2).
+    /// Grows as nodes drift away from the order.
     double spread() const { return spread_; }
 
     Offset bytes() const {

@@ -87,7 +87,8 @@ int class_of(double reach2, double largest) {
 std::vector<std::vector<Slot>> classify(const ConstView<double>& reach2, Offset n) {
     std::vector<std::vector<Slot>> classes(n_classes);
     const double largest = largest_finite_reach2(reach2);
-    for (Offset i = 0; i < n; ++i) classes[class_of(reach2(i), largest)].push_back(static_cast<Slot>(i));
+    for (Offset i = 0; i < n; ++i)
+        classes[class_of(reach2(i), largest)].push_back(static_cast<Slot>(i));
     return classes;
 }
 
@@ -95,7 +96,8 @@ std::vector<std::vector<Slot>> classify(const ConstView<double>& reach2, Offset 
 template <int Dim>
 class ClassOrder {
 public:
-    ClassOrder(const SearchNodes<Dim>& nodes, const std::vector<Slot>& slots) : nodes_(nodes), slots_(slots) {
+    ClassOrder(const SearchNodes<Dim>& nodes, const std::vector<Slot>& slots)
+        : nodes_(nodes), slots_(slots) {
         while ((size() + n_blocks_ - 1) / n_blocks_ > block_size) n_blocks_ *= 2, ++levels_;
     }
 
@@ -131,14 +133,16 @@ private:
         splits_.resize(n_blocks_);
         for (Offset nodes = 1; nodes < n_blocks_; nodes *= 2)  // a level at a time
             for_each_dynamic("search/order/splits", nodes, [&](int, Offset at) {
-                const Offset begin = at * n / nodes, end = (at + 1) * n / nodes, middle = (2 * at + 1) * n / (2 * nodes);
+                const Offset begin = at * n / nodes, end = (at + 1) * n / nodes,
+                             middle = (2 * at + 1) * n / (2 * nodes);
                 splits_[nodes + at] = divide(sample.data() + begin, middle - begin, end - begin);
             });
     }
 
     Offset block_of(const Point<Dim>& p) const {
         Offset node = 1;
-        for (int level = 0; level < levels_; ++level) node = 2 * node + (is_before(p, splits_[node]) ? 0 : 1);
+        for (int level = 0; level < levels_; ++level)
+            node = 2 * node + (is_before(p, splits_[node]) ? 0 : 1);
         return node - n_blocks_;
     }
 
@@ -175,9 +179,9 @@ private:
     const std::vector<Slot>& slots_;
     Offset n_blocks_ = 1;
     int levels_ = 0;
-    std::vector<Split> splits_;          // [n_blocks], heap order
-    std::vector<Offset> first_;          // [n_blocks + 1]
-    std::vector<Point<Dim>> sorted_;     // by block
+    std::vector<Split> splits_;       // [n_blocks], heap order
+    std::vector<Offset> first_;       // [n_blocks + 1]
+    std::vector<Point<Dim>> sorted_;  // by block
 };
 
 }  // namespace

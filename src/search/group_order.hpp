@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// The order of nodes that the group search works in: support classes, kd-tree blocks, leaves of 16.
+/// The order of nodes that the group search works in: support classes, kd-tree blocks, leaves
+/// of 16.
 ///
-/// Invariants: every slot has exactly one position; blocks begin at a leaf; unused places of a block's last leaf have
-/// slot -1; block b of a class is leaf b of its kd-tree. A class holds supports within a factor of four, so that a few
-/// large supports do not widen the boxes of the small ones; nodes that see nobody have a class of their own.
-/// The order is only a matter of speed: any permutation gives the same rows.
-/// Cost: O(N log N) once; kept from build to build while nodes move little.
+/// Invariants: every slot has exactly one position; blocks begin at a leaf; unused places of a
+/// block's last leaf have slot -1; block b of a class is leaf b of its kd-tree. A class holds
+/// supports within a factor of four, so that a few large supports do not widen the boxes of the
+/// small ones; nodes that see nobody have a class of their own. The order is only a matter of
+/// speed: any permutation gives the same rows. Cost: O(N log N) once; kept from build to build
+/// while nodes move little.
 
 #include <vector>
 
@@ -18,7 +20,8 @@ namespace connectivity::detail {
 
 constexpr Offset block_size = 512;  ///< nodes a block on average at most
 
-/// The kd-tree over the blocks of one class, in heap order: root at node 1, block b at node n_blocks + b.
+/// The kd-tree over the blocks of one class, in heap order: root at node 1, block b at node
+/// n_blocks + b.
 struct ClassTree {
     Offset n_blocks;  ///< a power of two
     Offset first_block;
@@ -26,10 +29,10 @@ struct ClassTree {
 };
 
 struct GroupOrder {
-    Offset n = 0;                     ///< slots ordered
-    std::vector<ClassTree> trees;     ///< largest supports first
-    std::vector<Offset> block_leaf;   ///< [n_blocks + 1]: leaves of block b
-    View<Slot> slot;                  ///< [n_leaves * 16]: slot of a position, -1 where there is none
+    Offset n = 0;                    ///< slots ordered
+    std::vector<ClassTree> trees;    ///< largest supports first
+    std::vector<Offset> block_leaf;  ///< [n_blocks + 1]: leaves of block b
+    View<Slot> slot;  ///< [n_leaves * 16]: slot of a position, -1 where there is none
     Offset n_tree_nodes = 0;
 
     Offset n_blocks() const { return static_cast<Offset>(block_leaf.size()) - 1; }

@@ -6,7 +6,8 @@
 namespace connectivity::detail {
 
 template <int Dim>
-void GroupWorker<Dim>::process(const GroupSweep<Dim>& sweep, int worker, Offset first, Offset last) {
+void GroupWorker<Dim>::process(const GroupSweep<Dim>& sweep, int worker, Offset first,
+                               Offset last) {
     sweep_ = &sweep;
     see_ = significance(sweep.nodes);
     superset_ = sweep.mode != SearchMode::gather_scatter || see_.H != nullptr;
@@ -45,7 +46,8 @@ void GroupWorker<Dim>::process(const Range& range) {
     if (!is_wanted(range)) {
         const Slot* const slot = sweep_->order.slot.data();
         for (Offset p = range.first * leaf_size; p < range.last * leaf_size; ++p)
-            if (slot[p] >= 0 && (range.only < 0 || p % leaf_size == range.only)) sweep_->store.store_nothing(slot[p]);
+            if (slot[p] >= 0 && (range.only < 0 || p % leaf_size == range.only))
+                sweep_->store.store_nothing(slot[p]);
         return;
     }
     const Frame<Dim> frame(box_of(range), sweep_->boxes);
@@ -64,7 +66,8 @@ void GroupWorker<Dim>::split(const Range& range) {
         return;
     }
     for (int k = 0; k < leaf_size; ++k)
-        if (sweep_->order.slot(range.first * leaf_size + k) >= 0) process({range.first, range.last, k});
+        if (sweep_->order.slot(range.first * leaf_size + k) >= 0)
+            process({range.first, range.last, k});
 }
 
 /// Leaves that hold candidates for a box: a walk through every class's tree.
@@ -100,11 +103,13 @@ void GroupWorker<Dim>::collect_image(const Frame<Dim>& frame, const double (&ima
     find_leaves(moved);
     if (leaves_.empty()) return;
     found_.reserve(found_.list.n + static_cast<int>(leaves_.size()) * leaf_size);
-    sweep_->kernels.collect(sweep_->boxes.leaf_array(sweep_->order), leaves_.data(), static_cast<int>(leaves_.size()),
-                            frame.map(image), frame.inside(frame.box, sweep_->boxes.fold_error()), found_.list);
+    sweep_->kernels.collect(sweep_->boxes.leaf_array(sweep_->order), leaves_.data(),
+                            static_cast<int>(leaves_.size()), frame.map(image),
+                            frame.inside(frame.box, sweep_->boxes.fold_error()), found_.list);
 }
 
-/// Fills block_ with sorted candidates. False if a node came with two images: its distance is then not one number.
+/// Fills block_ with sorted candidates. False if a node came with two images: its distance is then
+/// not one number.
 template <int Dim>
 bool GroupWorker<Dim>::find_candidates(const Frame<Dim>& frame) {
     const auto& periods = sweep_->nodes.periods;
@@ -138,8 +143,8 @@ void GroupWorker<Dim>::test_groups(const Range& range, const Frame<Dim>& frame) 
     for (Offset first = range.first; first < range.last; first += leaves_per_group) {
         const Range group{first, std::min(first + leaves_per_group, range.last), -1};
         group_.reserve(block_.list.n);
-        sweep_->kernels.filter(block_.list, frame.inside(box_of(group), slack), frame.widen(), frame.uniform,
-                               group_.list);
+        sweep_->kernels.filter(block_.list, frame.inside(box_of(group), slack), frame.widen(),
+                               frame.uniform, group_.list);
         for (Offset leaf = group.first; leaf < group.last; ++leaf) test_leaf(leaf, -1, frame);
     }
 }
@@ -152,7 +157,8 @@ void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame)
     const CandidateList<Dim>& wide = only < 0 ? group_.list : block_.list;
     leaf_.reserve(wide.n);
     const ReachBox<Dim> box = only < 0 ? boxes.leaf(leaf) : frame.box;
-    sweep_->kernels.filter(wide, frame.inside(box, boxes.fold_error()), frame.widen(), frame.uniform, leaf_.list);
+    sweep_->kernels.filter(wide, frame.inside(box, boxes.fold_error()), frame.widen(),
+                           frame.uniform, leaf_.list);
 
     LeafTest<Dim> test;
     RowStore::Wanted wanted[leaf_size];
@@ -163,7 +169,8 @@ void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame)
         if (slot[k] < 0 || (only >= 0 && k != only)) continue;
         const int at = test.n_nodes++;
         for (int d = 0; d < Dim; ++d)
-            test.x[d][at] = static_cast<float>((data[d * leaf_size + k] - frame.centre[d]) * frame.scale);
+            test.x[d][at] =
+                static_cast<float>((data[d * leaf_size + k] - frame.centre[d]) * frame.scale);
         test.t[at] = static_cast<float>(data[Dim * leaf_size + k] * frame.t_scale());
         own[at] = slot[k];
         wanted[at] = sweep_->store.wanted(slot[k]);
@@ -182,7 +189,8 @@ void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame)
     const int n_doubts = sweep_->kernels.test(test, leaf_.list, bits_.data(), doubts_.data());
     settle_doubts(own, words, n_doubts);
     for (int at = 0; at < test.n_nodes; ++at)
-        keep_row(own[at], bits_.data() + static_cast<Offset>(at) * words, words, place[at], wanted[at]);
+        keep_row(own[at], bits_.data() + static_cast<Offset>(at) * words, words, place[at],
+                 wanted[at]);
 }
 
 /// Candidates inside the error band: the double predicate decides.
@@ -192,8 +200,10 @@ void GroupWorker<Dim>::settle_doubts(const int* own, int words, int n_doubts) {
         const Doubt& doubt = doubts_.data()[k];
         std::uint64_t& word = bits_.data()[static_cast<Offset>(doubt.node) * words + doubt.word];
         for (std::uint64_t left = doubt.bits; left != 0; left &= left - 1) {
-            const int bit = __builtin_ctzll(left), other = leaf_.list.label[doubt.word * word_size + bit];
-            if (see_(own[doubt.node], other, SearchMode::gather_scatter)) word |= std::uint64_t{1} << bit;
+            const int bit = __builtin_ctzll(left),
+                      other = leaf_.list.label[doubt.word * word_size + bit];
+            if (see_(own[doubt.node], other, SearchMode::gather_scatter))
+                word |= std::uint64_t{1} << bit;
         }
     }
     counters.doubts += n_doubts;
@@ -205,35 +215,41 @@ void GroupWorker<Dim>::confirm(Slot slot, std::uint64_t* bits, int first_word, i
     for (int w = first_word; w < words; ++w)
         for (std::uint64_t left = bits[w]; left != 0; left &= left - 1) {
             const int bit = __builtin_ctzll(left);
-            if (!see_(slot, leaf_.list.label[w * word_size + bit], sweep_->mode)) bits[w] &= ~(std::uint64_t{1} << bit);
+            if (!see_(slot, leaf_.list.label[w * word_size + bit], sweep_->mode))
+                bits[w] &= ~(std::uint64_t{1} << bit);
         }
 }
 
 template <int Dim>
-void GroupWorker<Dim>::keep_row(Slot slot, std::uint64_t* bits, int words, int place, RowStore::Wanted wanted) {
+void GroupWorker<Dim>::keep_row(Slot slot, std::uint64_t* bits, int words, int place,
+                                RowStore::Wanted wanted) {
     if (wanted == RowStore::Wanted::nothing) return sweep_->store.store_nothing(slot);
     const int own_word = place / word_size;
     bits[own_word] &= ~(std::uint64_t{1} << (place % word_size));
-    if (wanted == RowStore::Wanted::later) bits[own_word] &= ~std::uint64_t{0} << (place % word_size);
+    if (wanted == RowStore::Wanted::later)
+        bits[own_word] &= ~std::uint64_t{0} << (place % word_size);
     if (superset_) confirm(slot, bits, wanted == RowStore::Wanted::all ? 0 : own_word, words);
     sweep_->store.store(worker_, {slot, bits, leaf_.list.label, words, place});
 }
 
-/// The last resort for a node whose frame has no good floats: all nodes of near leaves, each once, in double.
+/// The last resort for a node whose frame has no good floats: all nodes of near leaves, each once,
+/// in double.
 template <int Dim>
 void GroupWorker<Dim>::process_exactly(const Range& range) {
     const Slot slot = sweep_->order.slot(range.first * leaf_size + range.only);
     const auto& periods = sweep_->nodes.periods;
     ReachBox<Dim> box = box_of(range);
     for (int d = 0; d < Dim; ++d)  // any image: the walk must not miss one
-        if (periods.length[d] > 0) box.lo[d] = -periods.length[d], box.hi[d] = 2 * periods.length[d];
+        if (periods.length[d] > 0)
+            box.lo[d] = -periods.length[d], box.hi[d] = 2 * periods.length[d];
     find_leaves(box);
     auto& list = leaf_.list;
     list.n = 0;
     leaf_.reserve(static_cast<int>(leaves_.size()) * leaf_size);
     for (const int leaf : leaves_)
         for (int k = 0; k < leaf_size; ++k)
-            if (const Slot other = sweep_->order.slot(static_cast<Offset>(leaf) * leaf_size + k); other >= 0)
+            if (const Slot other = sweep_->order.slot(static_cast<Offset>(leaf) * leaf_size + k);
+                other >= 0)
                 list.label[list.n++] = other;
     std::sort(list.label, list.label + list.n);
     std::fill_n(list.label + list.n, list_slack, no_label);
@@ -243,7 +259,8 @@ void GroupWorker<Dim>::process_exactly(const Range& range) {
     for (int k = 0; k < list.n; ++k)
         if (list.label[k] != slot && see_(slot, list.label[k], sweep_->mode))
             bits_.data()[k / word_size] |= std::uint64_t{1} << (k % word_size);
-    const int place = static_cast<int>(std::lower_bound(list.label, list.label + list.n, slot) - list.label);
+    const int place =
+        static_cast<int>(std::lower_bound(list.label, list.label + list.n, slot) - list.label);
     ++counters.exact_nodes;
     const auto wanted = sweep_->store.wanted(slot);
     if (wanted == RowStore::Wanted::later) {
@@ -255,8 +272,9 @@ void GroupWorker<Dim>::process_exactly(const Range& range) {
 
 template <int Dim>
 Offset GroupWorker<Dim>::bytes() const {
-    return static_cast<Offset>(found_.bytes() + block_.bytes() + group_.bytes() + leaf_.bytes() + bits_.bytes() +
-                               doubts_.bytes() + leaves_.capacity() * sizeof(int) + sizeof(*this));
+    return static_cast<Offset>(found_.bytes() + block_.bytes() + group_.bytes() + leaf_.bytes() +
+                               bits_.bytes() + doubts_.bytes() + leaves_.capacity() * sizeof(int) +
+                               sizeof(*this));
 }
 
 template class GroupWorker<1>;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// Finds the rows of a block of leaves: candidates once, one sort, lists narrowed for groups and leaves, tests.
+/// Finds the rows of a block of leaves: candidates once, one sort, lists narrowed for groups and
+/// leaves, tests.
 ///
-/// A range of leaves whose frame is not good enough for float tests, or which meets two periodic images of one node, is
-/// split in two, down to single nodes. What is left after that is tested in double, candidate by candidate.
-/// Cost for supports of one size: about 4 candidates and 6 vector tests a node and neighbour row of 60.
+/// A range of leaves whose frame is not good enough for float tests, or which meets two periodic
+/// images of one node, is split in two, down to single nodes. What is left after that is tested in
+/// double, candidate by candidate. Cost for supports of one size: about 4 candidates and 6 vector
+/// tests a node and neighbour row of 60.
 
 #include "candidate_store.hpp"
 #include "frame.hpp"

@@ -55,7 +55,8 @@ void GroupSearch<Dim>::update_order(const SearchNodes<Dim>& nodes, Report& repor
         spread_when_ordered_ = boxes_.spread();
         why = fresh ? "new: number of nodes changed" : "new: blocks had spread by half";
     }
-    report.entry("order") = {"order", "search", why, true, !fresh && !worn, order_.bytes() + boxes_.bytes(), watch.ms()};
+    report.entry("order") = {
+        "order", "search", why, true, !fresh && !worn, order_.bytes() + boxes_.bytes(), watch.ms()};
 }
 
 /// Every stride-th block, the ones with the largest supports first.
@@ -67,7 +68,8 @@ void GroupSearch<Dim>::sweep(const GroupSweep<Dim>& shared, Offset stride) {
         if (first.any()) return;
         const Offset b = item * stride;
         try {
-            workers_[worker].process(shared, worker, order_.block_leaf[b], order_.block_leaf[b + 1]);
+            workers_[worker].process(shared, worker, order_.block_leaf[b],
+                                     order_.block_leaf[b + 1]);
         } catch (...) {
             first.keep();
         }
@@ -83,22 +85,27 @@ Offset GroupSearch<Dim>::estimate_entries(const GroupSweep<Dim>& shared) {
     sweep(shared, stride);
     Offset entries = 0, sampled = 0;
     for (Offset b = 0; b < order_.n_blocks(); b += stride)
-        for (Offset p = order_.block_leaf[b] * leaf_size; p < order_.block_leaf[b + 1] * leaf_size; ++p)
-            if (const Slot slot = order_.slot(p); slot >= 0) entries += store_.entries(slot), ++sampled;
-    return sampled > 0 ? static_cast<Offset>(static_cast<double>(entries) / static_cast<double>(sampled) *
-                                             static_cast<double>(order_.n))
-                       : 0;
+        for (Offset p = order_.block_leaf[b] * leaf_size; p < order_.block_leaf[b + 1] * leaf_size;
+             ++p)
+            if (const Slot slot = order_.slot(p); slot >= 0)
+                entries += store_.entries(slot), ++sampled;
+    return sampled > 0
+               ? static_cast<Offset>(static_cast<double>(entries) / static_cast<double>(sampled) *
+                                     static_cast<double>(order_.n))
+               : 0;
 }
 
 template <int Dim>
-void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request,
-                           Products products, Report& report) {
+void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
+                           const SearchRequest& request, Products products, Report& report) {
     update_order(nodes, report);
     const Kernels<Dim>& table = kernels<Dim>();
-    if (workers_.size() < static_cast<std::size_t>(n_workers())) workers_ = std::vector<GroupWorker<Dim>>(n_workers());
+    if (workers_.size() < static_cast<std::size_t>(n_workers()))
+        workers_ = std::vector<GroupWorker<Dim>>(n_workers());
     for (auto& worker : workers_) worker.counters = {};
     store_.begin(layout, request.rows, request.half_rows, {table.expand, table.count});
-    const GroupSweep<Dim> shared{nodes, order_, boxes_, table, request.mode, bits_for(nodes.n), store_};
+    const GroupSweep<Dim> shared{nodes, order_, boxes_, table, request.mode, bits_for(nodes.n),
+                                 store_};
     find_rows(shared, layout, request, products);
     store_.transfer(products);
     entries_before_ = std::max(request.rows ? products.rows.n_values() : 0,
@@ -106,13 +113,15 @@ void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layo
     report_costs(report);
 }
 
-/// One sweep where the rows are about as many as expected. Where they are more, or might not fit the budget, they are
-/// counted before any more memory is taken, and found again once they are known to fit.
+/// One sweep where the rows are about as many as expected. Where they are more, or might not fit
+/// the budget, they are counted before any more memory is taken, and found again once they are
+/// known to fit.
 template <int Dim>
-void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout& layout, const SearchRequest& request,
-                                 Products products) {
+void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout& layout,
+                                 const SearchRequest& request, Products products) {
     constexpr Offset slack = Offset{16} << 20;
-    const Offset expected = (entries_before_ >= 0 ? entries_before_ : estimate_entries(shared)) * Offset{sizeof(Slot)};
+    const Offset expected =
+        (entries_before_ >= 0 ? entries_before_ : estimate_entries(shared)) * Offset{sizeof(Slot)};
     const bool surely_fits = expected < slack / 4 || request.budget.allows(4 * expected);
     try {
         store_.begin_sweep(surely_fits ? 2 * expected + slack : 0);
@@ -123,7 +132,8 @@ void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout
         store_.begin_sweep(free);
         sweep(shared, 1);
         if (store_.only_counted())
-            throw Error(Status::budget, "the search needs more than " + human_bytes(free) + " while it runs");
+            throw Error(Status::budget,
+                        "the search needs more than " + human_bytes(free) + " while it runs");
     } catch (...) {
         store_.release();
         throw;
@@ -143,7 +153,8 @@ void GroupSearch<Dim>::report_costs(Report& report) const {
     report.counter("doubtful_words") = doubts;
     report.counter("nodes_tested_in_double") = exact;
     report.counter("blocks") = order_.n_blocks();
-    report.entry("scratch") = {"scratch", "search", "rows wait here until all are counted", true, true, scratch, 0};
+    report.entry("scratch") = {
+        "scratch", "search", "rows wait here until all are counted", true, true, scratch, 0};
 }
 
 template <int Dim>

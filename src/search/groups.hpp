@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// The group search: order once, gather every build, then block by block into arenas, then into the lists.
+/// The group search: order once, gather every build, then block by block into arenas, then into the
+/// lists.
 ///
-/// Invariants: rows do not depend on the order, the threads or the instruction set. The order is found anew when the
-/// number of nodes changes or when blocks have spread by half since it was made.
-/// Cost: see GroupWorker; memory 8 (Dim + 1) + 4 bytes a node for the gathered copy, 16 for row records, and the arenas,
-/// which hold as many entries as the lists.
+/// Invariants: rows do not depend on the order, the threads or the instruction set. The order is
+/// found anew when the number of nodes changes or when blocks have spread by half since it was
+/// made. Cost: see GroupWorker; memory 8 (Dim + 1) + 4 bytes a node for the gathered copy, 16 for
+/// row records, and the arenas, which hold as many entries as the lists.
 
 #include "group_worker.hpp"
 
@@ -15,8 +16,8 @@ template <int Dim>
 class GroupSearch {
 public:
     /// Throws Error{budget | memory}; the products are then as before.
-    void run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request, Products products,
-             Report& report);
+    void run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request,
+             Products products, Report& report);
 
     /// Slots in the order of the search, [n].
     View<Slot> spatial_order(const SearchNodes<Dim>& nodes);
@@ -27,8 +28,8 @@ private:
     void update_order(const SearchNodes<Dim>& nodes, Report& report);
     void sweep(const GroupSweep<Dim>& shared, Offset stride);
     Offset estimate_entries(const GroupSweep<Dim>& shared);
-    void find_rows(const GroupSweep<Dim>& shared, const SlotLayout& layout, const SearchRequest& request,
-                   Products products);
+    void find_rows(const GroupSweep<Dim>& shared, const SlotLayout& layout,
+                   const SearchRequest& request, Products products);
     void report_costs(Report& report) const;
 
     GroupOrder order_;

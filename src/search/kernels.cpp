@@ -15,8 +15,9 @@ Isa choose() {
     const char* const asked = std::getenv("CONNECTIVITY_ISA");
     const std::string_view wish = asked != nullptr ? asked : "";
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+    const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
+                        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+                        __builtin_cpu_supports("avx512bw");
     if (avx512 && wish != "avx2" && wish != "portable") return Isa::avx512;
     if (avx2 && wish != "portable") return Isa::avx2;
 #endif

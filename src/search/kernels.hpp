@@ -2,11 +2,13 @@
 #pragma once
 /// The vector kernels of the group search, one table per instruction set, chosen at run time.
 ///
-/// Raw pointers only: the files that implement a table are compiled for wide instructions and therefore include neither
-/// Kokkos nor the standard containers, so that no wide code can leak into the baseline through an inline function.
+/// Raw pointers only: the files that implement a table are compiled for wide instructions and
+/// therefore include neither Kokkos nor the standard containers, so that no wide code can leak into
+/// the baseline through an inline function.
 ///
-/// Coordinates are floats in the frame of a block: relative to its centre, in units near its reach. Thresholds are
-/// squared reaches in the same unit, lowered by the error band: d <= t is certain, d > t * (1 + band) is certainly not.
+/// Coordinates are floats in the frame of a block: relative to its centre, in units near its reach.
+/// Thresholds are squared reaches in the same unit, lowered by the error band: d <= t is certain, d
+/// > t * (1 + band) is certainly not.
 
 #include <cstdint>
 
@@ -17,7 +19,8 @@ constexpr int word_size = 64;   ///< candidates tested into one word of bits
 constexpr int list_slack = 64;  ///< entries that a kernel may write beyond the end of a list
 constexpr int no_label = 0x7fffffff;
 
-/// Candidates, sorted by label once `sort_by_label` ran; padded to whole words with points at infinity.
+/// Candidates, sorted by label once `sort_by_label` ran; padded to whole words with points at
+/// infinity.
 template <int Dim>
 struct CandidateList {
     float* x[Dim];
@@ -72,13 +75,14 @@ template <int Dim>
 struct Kernels {
     const char* name;
     /// Appends the nodes of `leaves` whose distance to the box is within reach of either side.
-    void (*collect)(const LeafArray&, const int* leaves, int n_leaves, const FrameMap<Dim>&, const FrameBox<Dim>&,
-                    CandidateList<Dim>& out);
+    void (*collect)(const LeafArray&, const int* leaves, int n_leaves, const FrameMap<Dim>&,
+                    const FrameBox<Dim>&, CandidateList<Dim>& out);
     /// Keeps the order: candidates of `in` within reach of the box, packed to the front of `out`.
     void (*filter)(const CandidateList<Dim>& in, const FrameBox<Dim>&, float widen, bool uniform,
                    CandidateList<Dim>& out);
     /// bits[node * n_words + word]; returns the number of doubts written.
-    int (*test)(const LeafTest<Dim>&, const CandidateList<Dim>&, std::uint64_t* bits, Doubt* doubts);
+    int (*test)(const LeafTest<Dim>&, const CandidateList<Dim>&, std::uint64_t* bits,
+                Doubt* doubts);
     /// Labels whose bit is set, in order; may write 16 beyond. Returns their number.
     int (*expand)(const std::uint64_t* bits, int n_words, const int* label, int* out);
     /// Set bits before position `place`.
@@ -87,8 +91,8 @@ struct Kernels {
     void (*places)(const int* own, const int* label, int n, int* place);
 };
 
-/// The table for this processor, or the one that the environment variable CONNECTIVITY_ISA names (portable, avx2,
-/// avx512), if the processor has it.
+/// The table for this processor, or the one that the environment variable CONNECTIVITY_ISA names
+/// (portable, avx2, avx512), if the processor has it.
 template <int Dim>
 const Kernels<Dim>& kernels();
 

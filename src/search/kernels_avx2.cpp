@@ -26,7 +26,9 @@ struct Avx2 {
     static F mul(F a, F b) { return _mm256_mul_ps(a, b); }
     static F fma(F a, F b, F c) { return _mm256_fmadd_ps(a, b, c); }
     static F max(F a, F b) { return _mm256_max_ps(a, b); }
-    static unsigned le(F a, F b) { return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ))); }
+    static unsigned le(F a, F b) {
+        return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)));
+    }
     static int count(unsigned mask) { return __builtin_popcount(mask); }
     static __m256i lanes_of(unsigned mask) {
         return _mm256_load_si256(reinterpret_cast<const __m256i*>(pack_table.lane[mask]));
@@ -36,12 +38,14 @@ struct Avx2 {
     }
     static void pack(int* to, unsigned mask, const int* from) {
         const __m256i a = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(a, lanes_of(mask)));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                            _mm256_permutevar8x32_epi32(a, lanes_of(mask)));
     }
     static F load_doubles(const double* p, double centre, double scale) {
         const __m256d c = _mm256_set1_pd(centre), s = _mm256_set1_pd(scale);
         const __m128 low = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_sub_pd(_mm256_loadu_pd(p), c), s));
-        const __m128 high = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_sub_pd(_mm256_loadu_pd(p + 4), c), s));
+        const __m128 high =
+            _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_sub_pd(_mm256_loadu_pd(p + 4), c), s));
         return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1);
     }
     static int unpack(int* out, std::uint64_t word, const int* label) {

@@ -22,18 +22,22 @@ struct Avx512 {
         _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(mask), a));
     }
     static void pack(int* to, unsigned mask, const int* from) {
-        _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), _mm512_loadu_si512(from)));
+        _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask),
+                                                            _mm512_loadu_si512(from)));
     }
     static F load_doubles(const double* p, double centre, double scale) {
         const __m512d c = _mm512_set1_pd(centre), s = _mm512_set1_pd(scale);
         const __m256 low = _mm512_cvtpd_ps(_mm512_mul_pd(_mm512_sub_pd(_mm512_loadu_pd(p), c), s));
-        const __m256 high = _mm512_cvtpd_ps(_mm512_mul_pd(_mm512_sub_pd(_mm512_loadu_pd(p + 8), c), s));
+        const __m256 high =
+            _mm512_cvtpd_ps(_mm512_mul_pd(_mm512_sub_pd(_mm512_loadu_pd(p + 8), c), s));
         return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
     }
     static int unpack(int* out, std::uint64_t word, const int* label) {
         pack(out, static_cast<unsigned>(word & 0xffff), label);
-        pack(out + __builtin_popcountll(word & 0xffff), static_cast<unsigned>(word >> 16 & 0xffff), label + 16);
-        pack(out + __builtin_popcountll(word & 0xffffffff), static_cast<unsigned>(word >> 32 & 0xffff), label + 32);
+        pack(out + __builtin_popcountll(word & 0xffff), static_cast<unsigned>(word >> 16 & 0xffff),
+             label + 16);
+        pack(out + __builtin_popcountll(word & 0xffffffff),
+             static_cast<unsigned>(word >> 32 & 0xffff), label + 32);
         pack(out + __builtin_popcountll(word << 16), static_cast<unsigned>(word >> 48), label + 48);
         return __builtin_popcountll(word);
     }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// Bodies of the vector kernels over a type `V` of vector operations. Included once by each instruction set's file, after
-/// its V; everything lives in an anonymous namespace, so that no two instruction sets share a function.
+/// Bodies of the vector kernels over a type `V` of vector operations. Included once by each
+/// instruction set's file, after its V; everything lives in an anonymous namespace, so that no two
+/// instruction sets share a function.
 ///
-/// V has: lanes, F (vector of floats), load, set, sub, mul, fma, max, le (mask), pack (store the lanes of a mask to the
-/// front; may write all lanes), load_doubles (16 doubles -> floats in a frame), places.
+/// V has: lanes, F (vector of floats), load, set, sub, mul, fma, max, le (mask), pack (store the
+/// lanes of a mask to the front; may write all lanes), load_doubles (16 doubles -> floats in a
+/// frame), places.
 
 #include "kernels.hpp"
 
@@ -28,11 +30,13 @@ template <class V, int Dim, bool Uniform>
 struct BoxFilter {
     typename V::F lo[Dim], hi[Dim], own, widen;
 
-    BoxFilter(const FrameBox<Dim>& box, float widening) : own(V::set(box.t * widening)), widen(V::set(widening)) {
+    BoxFilter(const FrameBox<Dim>& box, float widening)
+        : own(V::set(box.t * widening)), widen(V::set(widening)) {
         for (int d = 0; d < Dim; ++d) lo[d] = V::set(box.lo[d]), hi[d] = V::set(box.hi[d]);
     }
 
-    inline void append(const typename V::F (&x)[Dim], typename V::F t, const int* label, CandidateList<Dim>& out) const {
+    inline void append(const typename V::F (&x)[Dim], typename V::F t, const int* label,
+                       CandidateList<Dim>& out) const {
         const auto reach = Uniform ? own : V::max(own, V::mul(t, widen));
         const unsigned keep = V::le(box_distance2<V, Dim>(x, lo, hi), reach);
         for (int d = 0; d < Dim; ++d) V::pack(out.x[d] + out.n, keep, x[d]);
@@ -60,7 +64,8 @@ void collect_as(const LeafArray& array, const int* leaves, int n_leaves, const F
         const int* const label = array.label + static_cast<long>(leaves[k]) * leaf_size;
         for (int v = 0; v < leaf_size; v += V::lanes) {
             typename V::F x[Dim], t = V::set(0);
-            for (int d = 0; d < Dim; ++d) x[d] = V::load_doubles(nodes + d * leaf_size + v, map.centre[d], map.scale);
+            for (int d = 0; d < Dim; ++d)
+                x[d] = V::load_doubles(nodes + d * leaf_size + v, map.centre[d], map.scale);
             if (!Uniform) t = V::load_doubles(nodes + Dim * leaf_size + v, 0.0, map.t_scale);
             filter.append(x, t, label + v, out);
         }
@@ -75,7 +80,8 @@ void collect(const LeafArray& array, const int* leaves, int n_leaves, const Fram
 }
 
 template <class V, int Dim, bool Uniform>
-void filter_as(const CandidateList<Dim>& in, const FrameBox<Dim>& box, float widen, CandidateList<Dim>& out) {
+void filter_as(const CandidateList<Dim>& in, const FrameBox<Dim>& box, float widen,
+               CandidateList<Dim>& out) {
     const BoxFilter<V, Dim, Uniform> filter(box, widen);
     CandidateList<Dim> list = out;  // a local copy keeps the length in a register
     list.n = 0;
@@ -92,11 +98,13 @@ void filter_as(const CandidateList<Dim>& in, const FrameBox<Dim>& box, float wid
 template <class V, int Dim>
 void filter(const CandidateList<Dim>& in, const FrameBox<Dim>& box, float widen, bool uniform,
             CandidateList<Dim>& out) {
-    uniform ? filter_as<V, Dim, true>(in, box, widen, out) : filter_as<V, Dim, false>(in, box, widen, out);
+    uniform ? filter_as<V, Dim, true>(in, box, widen, out)
+            : filter_as<V, Dim, false>(in, box, widen, out);
 }
 
 template <class V, int Dim, bool Uniform>
-int test_as(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint64_t* bits, Doubt* doubts) {
+int test_as(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint64_t* bits,
+            Doubt* doubts) {
     const int words = n_words(list.n);
     const auto band = V::set(leaf.band);
     int n_doubts = 0;
@@ -127,7 +135,8 @@ int test_as(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint
 }
 
 template <class V, int Dim>
-int test(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint64_t* bits, Doubt* doubts) {
+int test(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint64_t* bits,
+         Doubt* doubts) {
     return leaf.uniform ? test_as<V, Dim, true>(leaf, list, bits, doubts)
                         : test_as<V, Dim, false>(leaf, list, bits, doubts);
 }
@@ -156,14 +165,14 @@ constexpr Kernels<Dim> make_kernels(const char* name) {
 }  // namespace
 }  // namespace connectivity::detail
 
-#define CONNECTIVITY_DEFINE_KERNELS(function, V, name)                   \
-    namespace connectivity::detail {                                     \
-    template <int Dim>                                                   \
-    const Kernels<Dim>& function() {                                     \
+#define CONNECTIVITY_DEFINE_KERNELS(function, V, name)                    \
+    namespace connectivity::detail {                                      \
+    template <int Dim>                                                    \
+    const Kernels<Dim>& function() {                                      \
         static constexpr Kernels<Dim> table = make_kernels<V, Dim>(name); \
-        return table;                                                    \
-    }                                                                    \
-    template const Kernels<1>& function<1>();                            \
-    template const Kernels<2>& function<2>();                            \
-    template const Kernels<3>& function<3>();                            \
+        return table;                                                     \
+    }                                                                     \
+    template const Kernels<1>& function<1>();                             \
+    template const Kernels<2>& function<2>();                             \
+    template const Kernels<3>& function<3>();                             \
     }

@@ -2,7 +2,8 @@
 #pragma once
 /// How counted rows become lists: offsets, budget, storage, fill. Every search method ends here.
 ///
-/// Invariant: everything that can fail happens in `prepare`, before the first value of an old list is overwritten.
+/// Invariant: everything that can fail happens in `prepare`, before the first value of an old list
+/// is overwritten.
 
 #include <connectivity/base/budget.hpp>
 #include <connectivity/base/csr.hpp>
@@ -13,9 +14,10 @@ namespace connectivity::detail {
 
 /// What a search counted: entries by row and target list, and partners after each slot.
 struct Counts {
-    bool has_rows, has_halves;  ///< what was asked for; of zero nodes even a null pointer tells all counts
-    const Slot* rows;           ///< [n_rows * n_lists]
-    const Slot* halves;         ///< [n_slots]
+    bool has_rows,
+        has_halves;      ///< what was asked for; of zero nodes even a null pointer tells all counts
+    const Slot* rows;    ///< [n_rows * n_lists]
+    const Slot* halves;  ///< [n_slots]
 };
 
 /// The two lists that a search fills.
@@ -27,7 +29,9 @@ struct Products {
     void prepare(const Counts& counts, const SlotLayout& layout, const Budget& budget);
 };
 
-/// Throws Error{budget}: bytes needed and allowed, number of entries, and the node with most neighbours.
-[[noreturn]] void throw_over_budget(const Counts& counts, const SlotLayout& layout, Offset needed, Offset allowed);
+/// Throws Error{budget}: bytes needed and allowed, number of entries, and the node with most
+/// neighbours.
+[[noreturn]] void throw_over_budget(const Counts& counts, const SlotLayout& layout, Offset needed,
+                                    Offset allowed);
 
 }  // namespace connectivity::detail

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// Rows as the group search finds them, in any order, and their way into the final lists in slot order.
+/// Rows as the group search finds them, in any order, and their way into the final lists in slot
+/// order.
 ///
-/// Invariants: every slot is stored exactly once a sweep; a slot's row lies in the arena of the worker that found it.
-/// Once the arenas outgrow what the sweep may keep, rows are only counted: counts are exact all the same.
-/// Cost: 16 bytes a slot, and in the arenas 4 bytes for every entry kept.
+/// Invariants: every slot is stored exactly once a sweep; a slot's row lies in the arena of the
+/// worker that found it. Once the arenas outgrow what the sweep may keep, rows are only counted:
+/// counts are exact all the same. Cost: 16 bytes a slot, and in the arenas 4 bytes for every entry
+/// kept.
 
 #include <atomic>
 #include <vector>
@@ -22,7 +24,8 @@ struct FoundRow {
     const std::uint64_t* bits;
     const int* label;
     int n_words;
-    int place;  ///< of the node's own label in the list; its bit is off, and all below if only later entries are wanted
+    int place;  ///< of the node's own label in the list; its bit is off, and all below if only
+                ///< later entries are wanted
 };
 
 /// Where a row lies in an arena.
@@ -44,7 +47,8 @@ public:
     /// Makes room. Throws Error{memory}.
     void begin(const SlotLayout& layout, bool rows, bool halves, BitKernels kernels);
 
-    /// Starts a sweep that keeps at most `arena_bytes` of rows in arenas and only counts the others; 0: counts all.
+    /// Starts a sweep that keeps at most `arena_bytes` of rows in arenas and only counts the
+    /// others; 0: counts all.
     void begin_sweep(Offset arena_bytes);
 
     Wanted wanted(Slot slot) const;

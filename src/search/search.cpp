@@ -38,35 +38,42 @@ struct Choice {
     std::string reason;
 };
 
-/// Brute force while a block of the group search would hold all nodes anyway; groups beyond: cells never overtook them.
+/// Brute force while a block of the group search would hold all nodes anyway; groups beyond: cells
+/// never overtook them.
 Choice choose(SearchMethod asked, Offset n) {
     constexpr Offset few = 48;
-    if (asked != SearchMethod::automatic) return {asked, std::string(name_of(asked)) + ": asked for"};
+    if (asked != SearchMethod::automatic)
+        return {asked, std::string(name_of(asked)) + ": asked for"};
     if (n <= few)
-        return {SearchMethod::brute,
-                "brute: " + std::to_string(n) + " nodes, at most " + std::to_string(few) + " are tested all with all"};
-    return {SearchMethod::groups, "groups: " + std::to_string(n) + " nodes, more than " + std::to_string(few)};
+        return {SearchMethod::brute, "brute: " + std::to_string(n) + " nodes, at most " +
+                                         std::to_string(few) + " are tested all with all"};
+    return {SearchMethod::groups,
+            "groups: " + std::to_string(n) + " nodes, more than " + std::to_string(few)};
 }
 
-void report_product(Report& report, const char* name, bool asked, const std::string& reason, const Csr& list, double ms) {
-    report.entry(name) = {name, asked ? "caller" : "", asked ? reason : "", asked, false, list.bytes(), asked ? ms : 0};
+void report_product(Report& report, const char* name, bool asked, const std::string& reason,
+                    const Csr& list, double ms) {
+    report.entry(name) = {name,  asked ? "caller" : "", asked ? reason : "", asked,
+                          false, list.bytes(),          asked ? ms : 0};
 }
 
 }  // namespace
 
 template <int Dim>
-void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request, Csr& rows,
-                      Csr& half_rows, Report& report) {
+void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
+                      const SearchRequest& request, Csr& rows, Csr& half_rows, Report& report) {
     const Stopwatch watch;
     const detail::Products products{rows, half_rows};
     const Choice choice = choose(request.method, nodes.n);
     switch (choice.method) {
         case SearchMethod::brute:
-            detail::DirectBuild<Dim, detail::AllNodes>({nodes.n}, nodes, layout, request).run(products);
+            detail::DirectBuild<Dim, detail::AllNodes>({nodes.n}, nodes, layout, request)
+                .run(products);
             break;
         case SearchMethod::cells: {
             const detail::Cells<Dim> cells(nodes);
-            detail::DirectBuild<Dim, detail::Cells<Dim>>(cells, nodes, layout, request).run(products);
+            detail::DirectBuild<Dim, detail::Cells<Dim>>(cells, nodes, layout, request)
+                .run(products);
             break;
         }
         default: state_->groups.run(nodes, layout, request, products, report);
@@ -75,7 +82,8 @@ void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, c
     if (!request.half_rows) half_rows.clear();
     const double ms = watch.ms();
     report_product(report, "rows", request.rows, choice.reason, rows, ms);
-    report_product(report, "pairs", request.half_rows, request.rows ? "found with the rows" : choice.reason, half_rows,
+    report_product(report, "pairs", request.half_rows,
+                   request.rows ? "found with the rows" : choice.reason, half_rows,
                    request.rows ? 0 : ms);
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 /// A sequential writer of slots that passes the caches: whole lines go straight to memory.
 ///
-/// A list is larger than any cache and read later; plain stores would first read every line they overwrite. The
-/// destination is filled from low to high; `finish` writes what is left.
+/// A list is larger than any cache and read later; plain stores would first read every line they
+/// overwrite. The destination is filled from low to high; `finish` writes what is left.
 
 #include <cstdint>
 #include <cstring>
@@ -45,7 +45,8 @@ private:
         if (filled_ == 0) return;  // without values there is no place to write to
         Offset k = 0;
 #if defined(__SSE2__)
-        while (k < filled_ && reinterpret_cast<std::uintptr_t>(to_ + k) % 64 != 0) to_[k] = buffer_[k], ++k;
+        while (k < filled_ && reinterpret_cast<std::uintptr_t>(to_ + k) % 64 != 0)
+            to_[k] = buffer_[k], ++k;
         for (; k + line <= filled_; k += line)
             for (Offset part = k; part < k + line; part += 4)
                 _mm_stream_si128(reinterpret_cast<__m128i*>(to_ + part),

@@ -2,7 +2,8 @@
 #pragma once
 /// The domain: open or periodic on each axis by itself.
 ///
-/// A periodic axis has a length > 0; positions outside the box are legal, because only differences are wrapped.
+/// A periodic axis has a length > 0; positions outside the box are legal, because only differences
+/// are wrapped.
 
 #include <array>
 #include <cmath>
@@ -29,15 +30,18 @@ struct Domain {
     void check(int dim) const;
 };
 
-/// Lengths of the periodic axes (0 = open), for kernels. `wrap` is the one place where a difference is wrapped.
+/// Lengths of the periodic axes (0 = open), for kernels. `wrap` is the one place where a difference
+/// is wrapped.
 template <int Dim>
 struct Periods {
     double length[Dim];
     bool any;
 
-    /// Nearest image of a difference. Odd in its argument bit for bit, so that both ends of a pair agree.
+    /// Nearest image of a difference. Odd in its argument bit for bit, so that both ends of a pair
+    /// agree.
     KOKKOS_INLINE_FUNCTION double wrap(double difference, int d) const {
-        return length[d] > 0 ? difference - length[d] * std::rint(difference / length[d]) : difference;
+        return length[d] > 0 ? difference - length[d] * std::rint(difference / length[d])
+                             : difference;
     }
 };
 

@@ -12,13 +12,15 @@ namespace connectivity {
 Offset available_memory();
 
 struct Budget {
-    /// Largest number of bytes a product may take; 0 means 80 % of the memory that is free when the build starts.
+    /// Largest number of bytes a product may take; 0 means 80 % of the memory that is free when the
+    /// build starts.
     Offset bytes = 0;
 
     /// The number in force now.
     Offset allowed() const;
 
-    /// Does a product of so many bytes fit? Small ones fit without asking the system, which costs 50 us.
+    /// Does a product of so many bytes fit? Small ones fit without asking the system, which costs
+    /// 50 us.
     bool allows(Offset needed) const {
         constexpr Offset small = Offset{16} << 20;
         return (bytes <= 0 && needed <= small) || needed <= allowed();

@@ -2,10 +2,11 @@
 #pragma once
 /// The one builder of compressed sparse rows: count, scan, fill.
 ///
-/// Invariants: offsets[0] = 0, offsets non-decreasing, offsets[n_rows] = number of values. Offsets and counts are 64
-/// bits, values 32. Until `commit` nothing a reader can see changes; `commit` cannot fail. Views handed out stay valid
-/// and unchanged: storage that somebody else holds is left to them and new storage is taken.
-/// Cost: 8 bytes a row and 4 a value, and as much again for offsets while both generations are alive.
+/// Invariants: offsets[0] = 0, offsets non-decreasing, offsets[n_rows] = number of values. Offsets
+/// and counts are 64 bits, values 32. Until `commit` nothing a reader can see changes; `commit`
+/// cannot fail. Views handed out stay valid and unchanged: storage that somebody else holds is left
+/// to them and new storage is taken. Cost: 8 bytes a row and 4 a value, and as much again for
+/// offsets while both generations are alive.
 
 #include <string>
 #include <utility>
@@ -30,15 +31,17 @@ public:
     Offset bytes() const;
 
     /// First step. count(i) is the length of row i; called once for every row, in parallel.
-    /// Returns the bytes that a commit would have to hold. Throws Error{memory}; nothing visible changes.
+    /// Returns the bytes that a commit would have to hold. Throws Error{memory}; nothing visible
+    /// changes.
     template <class Count>
     Offset prepare(Offset n_rows, const Count& count);
 
-    /// Second step: takes the storage that the prepared rows need. Throws Error{memory}; nothing visible changes.
+    /// Second step: takes the storage that the prepared rows need. Throws Error{memory}; nothing
+    /// visible changes.
     void reserve();
 
-    /// Third step: fill(first_row, last_row, offsets, values) writes rows [first_row, last_row) and is called in
-    /// parallel over chunks of rows. It must not throw.
+    /// Third step: fill(first_row, last_row, offsets, values) writes rows [first_row, last_row) and
+    /// is called in parallel over chunks of rows. It must not throw.
     template <class Fill>
     void commit(const Fill& fill, Offset rows_per_chunk = 64);
 
@@ -81,7 +84,8 @@ Offset Csr::prepare(Offset n_rows, const Count& count) {
     HostExec().fence();
     offsets[n_rows] = total;
     pending_values_ = total;
-    return total * static_cast<Offset>(sizeof(Slot)) + (n_rows + 1) * static_cast<Offset>(sizeof(Offset));
+    return total * static_cast<Offset>(sizeof(Slot)) +
+           (n_rows + 1) * static_cast<Offset>(sizeof(Offset));
 }
 
 template <class Fill>
@@ -91,9 +95,11 @@ void Csr::commit(const Fill& fill, Offset rows_per_chunk) {
     Slot* const values = grown_.size() > 0 ? grown_.data() : values_.data();
     Kokkos::parallel_for(
         label_ + "/fill",
-        Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>, Kokkos::Schedule<Kokkos::Dynamic>>(0, chunks),
+        Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>, Kokkos::Schedule<Kokkos::Dynamic>>(
+            0, chunks),
         [=](const Offset c) {
-            const Offset first = c * rows_per_chunk, last = first + rows_per_chunk < n ? first + rows_per_chunk : n;
+            const Offset first = c * rows_per_chunk,
+                         last = first + rows_per_chunk < n ? first + rows_per_chunk : n;
             fill(first, last, offsets, values);
         });
     HostExec().fence();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// The one exception of the library: a status and a sentence that says what, where, value and allowed range.
+/// The one exception of the library: a status and a sentence that says what, where, value and
+/// allowed range.
 ///
 /// Invariant: an operation that throws leaves its object as it was before the call.
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// Dynamic parallel loop over host work of uneven size, with the worker's number for scratch memory.
+/// Dynamic parallel loop over host work of uneven size, with the worker's number for scratch
+/// memory.
 
 #include <atomic>
 
@@ -11,8 +12,9 @@ namespace connectivity {
 /// Workers that `for_each_dynamic` may use.
 inline int n_workers() { return HostExec().concurrency(); }
 
-/// body(worker, item) for every item in [0, n_items), in ascending order of start; worker < n_workers().
-/// Which worker takes an item depends on the run, so results must not depend on the worker. `body` must not throw.
+/// body(worker, item) for every item in [0, n_items), in ascending order of start; worker <
+/// n_workers(). Which worker takes an item depends on the run, so results must not depend on the
+/// worker. `body` must not throw.
 template <class Body>
 void for_each_dynamic(const std::string& label, Offset n_items, const Body& body) {
     std::atomic<Offset> next{0};

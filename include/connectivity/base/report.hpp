@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// What a build made, who asked for it, and what it cost. What nobody asked for stands here with 0 bytes and 0 ms.
+/// What a build made, who asked for it, and what it cost. What nobody asked for stands here with 0
+/// bytes and 0 ms.
 
 #include <cstdint>
 #include <string>

@@ -2,8 +2,9 @@
 #pragma once
 /// The life of Kokkos inside the library: started lazily, never stopped behind the host's back.
 ///
-/// Invariants: nothing runs in static initialisers and no View has static storage. Kokkos can be started once in a
-/// process; after it was finalised every call ends in Error{finalized}. Whoever started Kokkos owns it.
+/// Invariants: nothing runs in static initialisers and no View has static storage. Kokkos can be
+/// started once in a process; after it was finalised every call ends in Error{finalized}. Whoever
+/// started Kokkos owns it.
 
 #include <functional>
 #include <string>
@@ -15,8 +16,8 @@ struct RuntimeOptions {
     int device_id = -1;  ///< -1: what Kokkos chooses
 };
 
-/// Starts Kokkos if nobody did. Safe from several threads. Options count only for the call that starts it.
-/// Throws Error{finalized}, Error{forked}.
+/// Starts Kokkos if nobody did. Safe from several threads. Options count only for the call that
+/// starts it. Throws Error{finalized}, Error{forked}.
 void start_runtime(const RuntimeOptions& options = {});
 
 /// Throws Error{finalized} or Error{forked} if kernels cannot run any more.
@@ -30,7 +31,8 @@ bool runtime_is_running();
 /// Number of host threads that kernels use (0 before the start).
 int runtime_threads();
 
-/// Called right before Kokkos is finalised, by whomever; lets go of every View a registry still holds.
+/// Called right before Kokkos is finalised, by whomever; lets go of every View a registry still
+/// holds.
 void at_runtime_stop(std::function<void()> release);
 
 /// "Kokkos 4.6.1 OpenMP Serial" and the like.

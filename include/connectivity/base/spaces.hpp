@@ -2,9 +2,10 @@
 #pragma once
 /// Views and spaces, named once. `View<T>` lives on the host; `View<T, Space>` anywhere.
 ///
-/// Invariants: every allocation of the library goes through `allocate` or `allocate_zeroed`, which check the extent and
-/// turn a failure into Error{memory}. Blocks of 4 MiB and more ask the kernel for huge pages before they are touched:
-/// first touch then runs at 24 GB/s instead of 3-4 (2 threads, measured).
+/// Invariants: every allocation of the library goes through `allocate` or `allocate_zeroed`, which
+/// check the extent and turn a failure into Error{memory}. Blocks of 4 MiB and more ask the kernel
+/// for huge pages before they are touched: first touch then runs at 24 GB/s instead of 3-4 (2
+/// threads, measured).
 
 #include <new>
 #include <stdexcept>
@@ -27,10 +28,12 @@ template <class T, class Space = HostMemory>
 using ConstView = Kokkos::View<const T*, Kokkos::LayoutRight, Space>;
 
 namespace detail {
-/// Asks for huge pages; a wish, never an error. No effect on small blocks or memory that is no host memory.
+/// Asks for huge pages; a wish, never an error. No effect on small blocks or memory that is no host
+/// memory.
 void advise_huge_pages(void* data, std::size_t bytes) noexcept;
 
-[[noreturn]] void throw_allocation_failed(const std::string& label, Offset n, std::size_t size, const char* why);
+[[noreturn]] void throw_allocation_failed(const std::string& label, Offset n, std::size_t size,
+                                          const char* why);
 
 template <class T, class Space, class... Properties>
 View<T, Space> allocate_with(const std::string& label, Offset n, const Properties&... properties) {
@@ -51,7 +54,8 @@ template <class T, class Space = HostMemory>
 View<T, Space> allocate(const std::string& label, Offset n) {
     auto view = detail::allocate_with<T, Space>(label, n, Kokkos::WithoutInitializing);
     if constexpr (std::is_same_v<typename Space::memory_space, HostMemory>)
-        detail::advise_huge_pages(const_cast<std::remove_const_t<T>*>(view.data()), view.size() * sizeof(T));
+        detail::advise_huge_pages(const_cast<std::remove_const_t<T>*>(view.data()),
+                                  view.size() * sizeof(T));
     return view;
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// True Morton keys: 63, 31 or 21 bits an axis in 1, 2, 3 dimensions, interleaved into one 64-bit integer.
+/// True Morton keys: 63, 31 or 21 bits an axis in 1, 2, 3 dimensions, interleaved into one 64-bit
+/// integer.
 ///
-/// Invariants: bit k of axis d is bit k*Dim + d of the key (x least significant); keys grow along every axis; cells are
-/// [lo, hi) divided into 2^bits equal parts, the last one closed.
-/// Cost: one pass over the positions.
+/// Invariants: bit k of axis d is bit k*Dim + d of the key (x least significant); keys grow along
+/// every axis; cells are [lo, hi) divided into 2^bits equal parts, the last one closed. Cost: one
+/// pass over the positions.
 
 #include <cstdint>
 
@@ -13,7 +14,9 @@
 namespace connectivity {
 
 template <int Dim>
-constexpr int key_bits = Dim == 1 ? 63 : Dim == 2 ? 31 : 21;
+constexpr int key_bits = Dim == 1   ? 63
+                         : Dim == 2 ? 31
+                                    : 21;
 
 /// Spreads the low key_bits<Dim> bits of v so that bit k lands on bit k * Dim.
 template <int Dim>
@@ -49,12 +52,14 @@ template <int Dim>
 struct KeyBox {
     double lo[Dim], hi[Dim];
 
-    /// Cell of coordinate x on axis d: min(2^bits - 1, floor((x - lo)/(hi - lo) * 2^bits)); 0 on an axis of no width.
+    /// Cell of coordinate x on axis d: min(2^bits - 1, floor((x - lo)/(hi - lo) * 2^bits)); 0 on an
+    /// axis of no width.
     KOKKOS_INLINE_FUNCTION std::uint64_t cell(double x, int d) const {
         const double width = hi[d] - lo[d];
         if (!(width > 0)) return 0;
-        constexpr auto last = (std::uint64_t{1} << key_bits<Dim>) - 1;
-        const double at = (x - lo[d]) / width * static_cast<double>(std::uint64_t{1} << key_bits<Dim>);
+        constexpr auto last = (std::uint64_t{1} << key_bits<Dim>)-1;
+        const double at =
+            (x - lo[d]) / width * static_cast<double>(std::uint64_t{1} << key_bits<Dim>);
         if (!(at > 0)) return 0;
         return at >= static_cast<double>(last) ? last : static_cast<std::uint64_t>(at);
     }

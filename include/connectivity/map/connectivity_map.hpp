@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// Who interacts with whom, over node lists: sorted rows and the list of unique pairs, each only if asked for.
+/// Who interacts with whom, over node lists: sorted rows and the list of unique pairs, each only if
+/// asked for.
 ///
-/// Invariants: a row is ascending, never names its own node, and j is in row(i) iff i is in row(j) where both are
-/// stored; every pair has at least one stored row and stands once. Results are the same bits for any number of threads,
-/// any search method and any instruction set. A rebuild that throws leaves everything as it was.
-/// Cost: O(N) time for bounded neighbour numbers; rows 4 bytes an entry + 8 per node and list, pairs 4 bytes each + 8
-/// per node; a steady-state rebuild allocates nothing.
+/// Invariants: a row is ascending, never names its own node, and j is in row(i) iff i is in row(j)
+/// where both are stored; every pair has at least one stored row and stands once. Results are the
+/// same bits for any number of threads, any search method and any instruction set. A rebuild that
+/// throws leaves everything as it was. Cost: O(N) time for bounded neighbour numbers; rows 4 bytes
+/// an entry + 8 per node and list, pairs 4 bytes each + 8 per node; a steady-state rebuild
+/// allocates nothing.
 
 #include <memory>
 #include <span>
@@ -28,7 +30,8 @@ struct MapOptions {
     bool ghost_rows = false;  ///< rows for ghosts too, and pairs between ghosts
     SearchMode mode = SearchMode::gather_scatter;  ///< pairs exist only for gather_scatter
     SearchMethod method = SearchMethod::automatic;
-    bool spatial_order = false;  ///< keep spatial_order() available (free where the search sorts nodes anyway)
+    bool spatial_order =
+        false;      ///< keep spatial_order() available (free where the search sorts nodes anyway)
     Domain domain;  ///< open on all axes unless told
     Budget budget;
 };
@@ -40,9 +43,10 @@ public:
     ConnectivityMap(ConnectivityMap&&) noexcept;
     ConnectivityMap& operator=(ConnectivityMap&&) noexcept;
 
-    /// Finds all neighbours anew. `lists` (at least one, all of one dimension) are read during the call only.
-    /// Throws Error: argument (no list, dimensions differ, pairs with gather or scatter), nonfinite / support / not_spd
-    /// (list, node, value), box, half_box, too_many, budget, memory; the map is then as it was before.
+    /// Finds all neighbours anew. `lists` (at least one, all of one dimension) are read during the
+    /// call only. Throws Error: argument (no list, dimensions differ, pairs with gather or
+    /// scatter), nonfinite / support / not_spd (list, node, value), box, half_box, too_many,
+    /// budget, memory; the map is then as it was before.
     void rebuild(std::span<const NodeList> lists, const MapOptions& options);
 
     Generation generation() const { return generation_; }  ///< 0 before the first rebuild
@@ -52,15 +56,15 @@ public:
     int dim() const { return dim_; }
     const MapOptions& options() const { return options_; }
 
-    /// Throw Error{not_built} if the last rebuild was not asked for them. Views hold their storage: they stay valid and
-    /// unchanged through later rebuilds.
+    /// Throw Error{not_built} if the last rebuild was not asked for them. Views hold their storage:
+    /// they stay valid and unchanged through later rebuilds.
     RowsView<> rows() const;
     const NodePairList& pairs() const;
     NodePairList& pairs();
 
-    /// Slots in an order that keeps neighbours close in memory, [n_slots]: a permutation. A host that reorders its nodes
-    /// by it (list by list, see below) makes its own loops and later builds faster.
-    /// Throws Error{not_built} unless MapOptions::spatial_order was set.
+    /// Slots in an order that keeps neighbours close in memory, [n_slots]: a permutation. A host
+    /// that reorders its nodes by it (list by list, see below) makes its own loops and later builds
+    /// faster. Throws Error{not_built} unless MapOptions::spatial_order was set.
     ConstView<Slot> spatial_order() const;
 
     /// The same for one list: node ids, internal ones first, then ghosts; a permutation of [0, n).
@@ -87,7 +91,8 @@ private:
     Report report_;
 };
 
-/// Reorders a host's field of n_components values a node: out[k] = in[order[k]]. `in` and `out` must not overlap.
+/// Reorders a host's field of n_components values a node: out[k] = in[order[k]]. `in` and `out`
+/// must not overlap.
 template <class T>
 void reorder_field(ConstView<Slot> order, const T* in, T* out, int n_components = 1) {
     const Slot* const from = order.data();
@@ -95,7 +100,8 @@ void reorder_field(ConstView<Slot> order, const T* in, T* out, int n_components 
                          Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, order.size()),
                          [=](const Offset k) {
                              for (int c = 0; c < n_components; ++c)
-                                 out[k * n_components + c] = in[static_cast<Offset>(from[k]) * n_components + c];
+                                 out[k * n_components + c] =
+                                     in[static_cast<Offset>(from[k]) * n_components + c];
                          });
     HostExec().fence();
 }

@@ -2,10 +2,10 @@
 #pragma once
 /// A node list: a named set of nodes, internal ones first, then ghosts.
 ///
-/// Invariants: 1 <= dim <= 3; positions, and exactly one of h and H, agree on the number of nodes n;
-/// 0 <= n_internal <= n; kernel_extent > 0 and finite. Values (finite positions, h >= 0, H positive definite) are
-/// checked by ConnectivityMap::rebuild, which reads them anyway.
-/// A node list shares the Views it was given and copies nothing: move the nodes, then rebuild.
+/// Invariants: 1 <= dim <= 3; positions, and exactly one of h and H, agree on the number of nodes
+/// n; 0 <= n_internal <= n; kernel_extent > 0 and finite. Values (finite positions, h >= 0, H
+/// positive definite) are checked by ConnectivityMap::rebuild, which reads them anyway. A node list
+/// shares the Views it was given and copies nothing: move the nodes, then rebuild.
 
 #include <string>
 
@@ -15,15 +15,16 @@ namespace connectivity {
 
 class NodeList {
 public:
-    /// Scalar smoothing lengths. positions [n * dim] interleaved, h [n] >= 0, both host; support radius kernel_extent*h.
-    /// Throws Error{argument} if the shapes disagree.
-    static NodeList with_h(std::string name, int dim, Offset n_internal, ConstView<double> positions,
-                           ConstView<double> h, double kernel_extent);
+    /// Scalar smoothing lengths. positions [n * dim] interleaved, h [n] >= 0, both host; support
+    /// radius kernel_extent*h. Throws Error{argument} if the shapes disagree.
+    static NodeList with_h(std::string name, int dim, Offset n_internal,
+                           ConstView<double> positions, ConstView<double> h, double kernel_extent);
 
-    /// Tensor smoothing. H [n * n_symmetric(dim)] packed (xx,xy,xz,yy,yz,zz), 1/length, host; the support of a node is
-    /// the closed ellipsoid |H r| <= kernel_extent. Throws Error{argument} if the shapes disagree.
-    static NodeList with_H(std::string name, int dim, Offset n_internal, ConstView<double> positions,
-                           ConstView<double> H, double kernel_extent);
+    /// Tensor smoothing. H [n * n_symmetric(dim)] packed (xx,xy,xz,yy,yz,zz), 1/length, host; the
+    /// support of a node is the closed ellipsoid |H r| <= kernel_extent. Throws Error{argument} if
+    /// the shapes disagree.
+    static NodeList with_H(std::string name, int dim, Offset n_internal,
+                           ConstView<double> positions, ConstView<double> H, double kernel_extent);
 
     const std::string& name() const { return name_; }
     int dim() const { return dim_; }
@@ -36,7 +37,7 @@ public:
 
     ConstView<double> positions() const { return positions_; }  ///< [n * dim]
     ConstView<double> h() const { return h_; }                  ///< [n], empty for tensors
-    ConstView<double> H() const { return H_; }                  ///< [n * n_symmetric(dim)], empty for scalars
+    ConstView<double> H() const { return H_; }  ///< [n * n_symmetric(dim)], empty for scalars
 
 private:
     NodeList() = default;

@@ -6,8 +6,9 @@
 
 namespace connectivity {
 
-/// Rows of the stored nodes, trivially copyable, captured by value in kernels. Row r is node a of list k with
-/// r = row_offset[k] + a; its neighbours in list l are slots(r, l), ascending; never the node itself.
+/// Rows of the stored nodes, trivially copyable, captured by value in kernels. Row r is node a of
+/// list k with r = row_offset[k] + a; its neighbours in list l are slots(r, l), ascending; never
+/// the node itself.
 template <class Space = HostMemory>
 struct RowsView {
     ConstView<Offset, Space> offsets;  ///< [n_rows * n_lists + 1]
@@ -28,7 +29,9 @@ struct RowsView {
         KOKKOS_INLINE_FUNCTION Offset size() const { return last - first; }
     };
     /// All neighbours of row r, lists one after the other: ascending slots.
-    KOKKOS_INLINE_FUNCTION Range operator[](Offset r) const { return range(r * n_lists, (r + 1) * n_lists); }
+    KOKKOS_INLINE_FUNCTION Range operator[](Offset r) const {
+        return range(r * n_lists, (r + 1) * n_lists);
+    }
     /// Neighbours of row r in list l.
     KOKKOS_INLINE_FUNCTION Range operator()(Offset r, int l) const {
         return range(r * n_lists + l, r * n_lists + l + 1);

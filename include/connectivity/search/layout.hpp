@@ -2,8 +2,9 @@
 #pragma once
 /// How slots are numbered, and which of them have a stored row.
 ///
-/// Invariants: slots of list k are [list_offset[k], list_offset[k+1]), internal nodes first; rows of list k are
-/// [row_offset[k], row_offset[k+1]) and belong to its first n_stored nodes. Row numbers have no gaps.
+/// Invariants: slots of list k are [list_offset[k], list_offset[k+1]), internal nodes first; rows
+/// of list k are [row_offset[k], row_offset[k+1]) and belong to its first n_stored nodes. Row
+/// numbers have no gaps.
 
 #include <algorithm>
 #include <vector>
@@ -47,7 +48,9 @@ private:
     /// The list k with offsets[k] <= at < offsets[k+1]; empty lists are skipped.
     static int find(const std::vector<Offset>& offsets, Offset at) {
         if (offsets.size() == 2) return 0;
-        return static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), at) - offsets.begin()) - 1;
+        return static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), at) -
+                                offsets.begin()) -
+               1;
     }
 
     std::vector<Offset> list_offset_, row_offset_;

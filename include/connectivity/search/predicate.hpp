@@ -4,10 +4,11 @@
 ///
 /// Scalar h:  i sees j  iff  r² ≤ (K h_i)², each product rounded once.
 /// Tensor H:  i sees j  iff  |H_i r|² ≤ K².
-/// Closed ball, no square root; h = 0 sees nobody, not even a coincident node. Periodic axes: difference first, then
-/// wrapped. Every step is odd or even in the difference, so `significant` is symmetric bit for bit. The whole library
-/// is compiled without contraction of products and sums, hence all paths agree.
-/// Source: the definition in Spheral's design, with the maximum kernel extent K over all node lists.
+/// Closed ball, no square root; h = 0 sees nobody, not even a coincident node. Periodic axes:
+/// difference first, then wrapped. Every step is odd or even in the difference, so `significant` is
+/// symmetric bit for bit. The whole library is compiled without contraction of products and sums,
+/// hence all paths agree. Source: the definition in Spheral's design, with the maximum kernel
+/// extent K over all node lists.
 
 #include <connectivity/base/box.hpp>
 #include <connectivity/base/spaces.hpp>
@@ -20,15 +21,17 @@ enum class SearchMode {
     gather_scatter  ///< either: symmetric, the only mode that has pairs
 };
 
-/// All nodes laid end to end by slot, as the search reads them. Nothing is owned but references to Views.
+/// All nodes laid end to end by slot, as the search reads them. Nothing is owned but references to
+/// Views.
 template <int Dim>
 struct SearchNodes {
     Offset n = 0;
     ConstView<double> positions;  ///< [n * Dim], interleaved
-    /// [n]: (K h)² for scalar h; for a tensor the squared radius of a ball that holds its ellipsoid;
-    /// -1 for a node that sees nobody.
+    /// [n]: (K h)² for scalar h; for a tensor the squared radius of a ball that holds its
+    /// ellipsoid; -1 for a node that sees nobody.
     ConstView<double> reach2;
-    /// [n * n_symmetric(Dim)] packed H, empty if no list has tensors; a node with scalar h has H_xx = 0.
+    /// [n * n_symmetric(Dim)] packed H, empty if no list has tensors; a node with scalar h has H_xx
+    /// = 0.
     ConstView<double> H;
     double extent2 = 0;  ///< K²
     Periods<Dim> periods{};
@@ -87,14 +90,15 @@ struct Significance {
         double r[Dim];
         difference(i, j, r);
         const double r2 = squared(r);
-        return (mode != SearchMode::scatter && sees(i, r, r2)) || (mode != SearchMode::gather && sees(j, r, r2));
+        return (mode != SearchMode::scatter && sees(i, r, r2)) ||
+               (mode != SearchMode::gather && sees(j, r, r2));
     }
 };
 
 template <int Dim>
 Significance<Dim> significance(const SearchNodes<Dim>& nodes) {
-    return {nodes.positions.data(), nodes.reach2.data(), nodes.H.size() > 0 ? nodes.H.data() : nullptr, nodes.extent2,
-            nodes.periods};
+    return {nodes.positions.data(), nodes.reach2.data(),
+            nodes.H.size() > 0 ? nodes.H.data() : nullptr, nodes.extent2, nodes.periods};
 }
 
 }  // namespace connectivity

@@ -2,13 +2,15 @@
 #pragma once
 /// Neighbour search: from nodes and supports to sorted rows and half rows, exact and complete.
 ///
-/// Three methods give the same bits. `brute` tests every pair; `cells` hashes nodes into a grid of the largest support;
-/// `groups` sorts nodes into blocks of a tree by support class and position and tests blocks against candidates with
-/// vector code, any double decision inside a proven error band. `automatic` chooses and says why in the report.
+/// Three methods give the same bits. `brute` tests every pair; `cells` hashes nodes into a grid of
+/// the largest support; `groups` sorts nodes into blocks of a tree by support class and position
+/// and tests blocks against candidates with vector code, any double decision inside a proven error
+/// band. `automatic` chooses and says why in the report.
 ///
-/// Rows: for every stored slot the ascending slots of its neighbours, cut by target list: row r, list l is segment
-/// r * n_lists + l. Half rows: for every slot the partners after it; a slot without a row names only stored partners.
-/// So each pair with at least one stored row stands in exactly one half row.
+/// Rows: for every stored slot the ascending slots of its neighbours, cut by target list: row r,
+/// list l is segment r * n_lists + l. Half rows: for every slot the partners after it; a slot
+/// without a row names only stored partners. So each pair with at least one stored row stands in
+/// exactly one half row.
 
 #include <memory>
 #include <string>
@@ -43,12 +45,14 @@ public:
     Search(Search&&) noexcept;
     Search& operator=(Search&&) noexcept;
 
-    /// Fills `rows` and `half_rows` as asked; what is not asked for is cleared. Strong guarantee: on an exception both
-    /// are as before. Throws Error{budget} with the bytes needed, allowed, and the worst node; Error{memory}.
-    void run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request, Csr& rows,
-             Csr& half_rows, Report& report);
+    /// Fills `rows` and `half_rows` as asked; what is not asked for is cleared. Strong guarantee:
+    /// on an exception both are as before. Throws Error{budget} with the bytes needed, allowed, and
+    /// the worst node; Error{memory}.
+    void run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request,
+             Csr& rows, Csr& half_rows, Report& report);
 
-    /// Slots in an order that keeps neighbours close in memory, [n]; the order of the last run, where it sorted.
+    /// Slots in an order that keeps neighbours close in memory, [n]; the order of the last run,
+    /// where it sorted.
     View<Slot> spatial_order(const SearchNodes<Dim>& nodes);
 
     /// Bytes of order and scratch memory held.
