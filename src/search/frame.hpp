@@ -35,7 +35,7 @@ struct Frame {
             half = std::max({half, box.hi[d] - centre[d], centre[d] - box.lo[d]});
         }
         // Nodes that see nobody meet thresholds of others only: the least of all bounds them.
-        const double least2 = box.reach2 < 0 ? boxes.all().least : box.least,
+        const double least2 = box.has_blind ? boxes.all().least : box.least,
                      least = std::sqrt(least2);
         if (!(least > 0) || !std::isfinite(least)) return;
         scale = std::exp2(-std::ilogb(least));

@@ -82,10 +82,8 @@ void GroupBoxes<Dim>::gather(const SearchNodes<Dim>& nodes, const GroupOrder& or
     all_.clear();
     for (const ClassTree& tree : order.trees) gather_tree(nodes, order, tree);
 
-    blind_ = false;
     spread_ = 0;
     for (const ClassTree& tree : order.trees) {
-        blind_ = blind_ || tree_nodes_(tree.first_node + 1).reach2 < 0;
         for (Offset b = 0; b < tree.n_blocks; ++b)
             spread_ += spread_of(tree_nodes_(tree.first_node + tree.n_blocks + b));
     }

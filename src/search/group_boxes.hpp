@@ -18,8 +18,9 @@ namespace connectivity::detail {
 template <int Dim>
 struct ReachBox {
     double lo[Dim], hi[Dim];
-    double reach2;  ///< largest
-    double least;   ///< smallest that is not negative; infinite if there is none
+    double reach2;   ///< largest
+    double least;    ///< smallest that is not negative; infinite if there is none
+    bool has_blind;  ///< some node sees nobody
 
     void clear() {
         for (int d = 0; d < Dim; ++d)
@@ -27,17 +28,22 @@ struct ReachBox {
             hi[d] = -std::numeric_limits<double>::infinity();
         reach2 = -1;
         least = std::numeric_limits<double>::infinity();
+        has_blind = false;
     }
     void add(const ReachBox& b) {
         for (int d = 0; d < Dim; ++d)
             lo[d] = std::min(lo[d], b.lo[d]), hi[d] = std::max(hi[d], b.hi[d]);
         reach2 = std::max(reach2, b.reach2);
         least = std::min(least, b.least);
+        has_blind = has_blind || b.has_blind;
     }
     void add(const double (&x)[Dim], double r2) {
         for (int d = 0; d < Dim; ++d) lo[d] = std::min(lo[d], x[d]), hi[d] = std::max(hi[d], x[d]);
         reach2 = std::max(reach2, r2);
-        if (r2 >= 0) least = std::min(least, r2);
+        if (r2 >= 0)
+            least = std::min(least, r2);
+        else
+            has_blind = true;
     }
     bool empty() const { return !(lo[0] <= hi[0]); }
 };
@@ -71,7 +77,7 @@ public:
 
     double fold_error() const { return fold_error_; }
     const ReachBox<Dim>& all() const { return all_; }
-    bool uniform() const { return all_.reach2 == all_.least && all_.reach2 > 0 && !blind_; }
+    bool uniform() const { return all_.reach2 == all_.least && all_.reach2 > 0 && !all_.has_blind; }
 
     /// How wide blocks are for their reach: sum over blocks of the product of (width / reach + 2).
     /// Grows as nodes drift away from the order.
@@ -91,7 +97,6 @@ private:
     View<ReachBox<Dim>> leaves_;      // [n_leaves]
     View<ReachBox<Dim>> tree_nodes_;  // heap order, tree after tree
     ReachBox<Dim> all_{};
-    bool blind_ = false;  // some node sees nobody
     double fold_error_ = 0, spread_ = 0;
 };
 
