@@ -59,12 +59,31 @@ void before_finalize() {
     }
 }
 
+/// Kokkos' thread pool has room for so many, and does not check.
+constexpr int most_threads = 512;
+
+void check_threads(int n_threads) {
+    if (n_threads >= 0 && n_threads <= most_threads) return;
+    throw Error(Status::argument, "start_runtime: " + std::to_string(n_threads) +
+                                      " threads, must be in [0, " + std::to_string(most_threads) +
+                                      "]; 0 means automatic");
+}
+
+int default_threads() {
+#if defined(KOKKOS_ENABLE_OPENMP)
+    return omp_get_max_threads() > most_threads ? most_threads : 0;
+#else
+    return 0;
+#endif
+}
+
 void start_kokkos(const RuntimeOptions& options) {
+    const int n_threads = options.n_threads > 0 ? options.n_threads : default_threads();
     const bool is_ours = !Kokkos::is_initialized();
     if (is_ours) {
         const shim::KeepOpenMPThreads keep;
         shim::outside_parallel_region([&] {
-            shim::kokkos_initialize(options.n_threads, options.device_id);
+            shim::kokkos_initialize(n_threads, options.device_id);
             pool = shim::pool_of_this_thread();
         });
     } else {
@@ -83,6 +102,7 @@ void start_runtime(const RuntimeOptions& options) {
     const std::lock_guard lock(record().mutex);
     require_runtime();  // another thread may have been faster
     if (phase == Phase::running) return;
+    check_threads(options.n_threads);
     static const int registered = pthread_atfork(nullptr, nullptr, mark_child);
     if (registered != 0)
         throw Error(Status::memory, "start_runtime: no memory for the fork handler");

@@ -36,9 +36,11 @@ void check_readable(const std::string& path) {
         throw Error(Status::file, fmt::format("cannot open '{}': there is no such file", path));
     if (std::filesystem::is_directory(status))
         throw Error(Status::file, fmt::format("cannot open '{}': it is a folder", path));
+    if (!std::filesystem::is_regular_file(status))
+        throw Error(Status::file, fmt::format("cannot open '{}': it is no regular file", path));
     if (access(path.c_str(), R_OK) != 0)
         throw Error(Status::file, fmt::format("cannot open '{}': {}", path, std::strerror(errno)));
-    if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, code) == 0)
+    if (std::filesystem::file_size(path, code) == 0)
         throw Error(Status::format, fmt::format("'{}' is not an HDF5 file: it is empty", path));
     if (H5Fis_hdf5(path.c_str()) <= 0)
         throw Error(Status::format, fmt::format("'{}' is not an HDF5 file", path));

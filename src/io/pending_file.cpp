@@ -25,7 +25,13 @@ PendingFile::PendingFile(std::string path) : path_(std::move(path)) {
     namespace fs = std::filesystem;
     std::error_code code;
     if (path_.empty()) fail(path_, "the name is empty");
+    if (fs::is_symlink(path_, code)) {  // the file it names is replaced, not the link
+        const fs::path target = fs::weakly_canonical(path_, code);
+        if (!code) path_ = target.string();
+    }
     if (fs::is_directory(path_, code)) fail(path_, "it is a folder");
+    if (fs::exists(path_, code) && !fs::is_regular_file(path_, code))
+        fail(path_, "it is no regular file");
     const fs::path parent = fs::path(path_).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
     if (!fs::is_directory(folder, code))

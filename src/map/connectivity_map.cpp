@@ -97,7 +97,7 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
                                 options.budget};
     auto& search = impl_->search<Dim>();
     ConstView<Slot> order;
-    if (options.spatial_order) order = search.spatial_order(nodes);
+    if (options.spatial_order) order = search.spatial_order(nodes, report);
     search.run(nodes, layout, request, rows_, pairs_.half_rows_, report);
 
     // Nothing below can fail: this is where the new lists become the map's.

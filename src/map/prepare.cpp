@@ -29,11 +29,18 @@ struct ListReader {
                             : examine_tensor(H + node * n_symmetric(Dim), reach2);
     }
 
+    /// How far the support of a node without other faults reaches along an axis.
+    double width(Offset node, int d) const {
+        return extent * (h != nullptr
+                             ? h[node]
+                             : tensor_support<Dim>(H + node * n_symmetric(Dim)).half_width[d]);
+    }
+
 private:
     Fault examine_scalar(double length, double& reach2) const {
         if (!(length >= 0) || !std::isfinite(length)) return Fault::support;
         for (int d = 0; d < Dim; ++d)
-            if (extent * length > half_length[d]) return Fault::half_box;
+            if (!(extent * length <= half_length[d])) return Fault::half_box;
         reach2 = scalar_reach2(length, extent);
         return Fault::none;
     }
@@ -42,9 +49,10 @@ private:
         const TensorSupport<Dim> support = tensor_support<Dim>(tensor);
         if (!support.positive_definite) return Fault::not_spd;
         for (int d = 0; d < Dim; ++d)
-            if (extent * support.half_width[d] > half_length[d]) return Fault::half_box;
+            if (!(extent * support.half_width[d] <= half_length[d])) return Fault::half_box;
         const double reach = extent * support.radius;
-        reach2 = reach * reach * (1 + 1e-14);
+        reach2 =
+            reach * reach * (1 + 1e-14) + std::numeric_limits<double>::min();  // never rounds to 0
         return Fault::none;
     }
 };
@@ -108,12 +116,11 @@ template <int Dim>
         text += "), must be finite and positive definite";
     } else {
         status = Status::half_box;
-        if (read.h != nullptr)
-            text += "support radius " + number(read.extent * read.h[node]) + " is";
-        else
-            text += "the half width of the support is";
-        text += " larger than half the length of a periodic axis, " +
-                number(*std::min_element(read.half_length.begin(), read.half_length.end()));
+        int d = 0;
+        while (read.width(node, d) <= read.half_length[d]) ++d;
+        text += (read.h != nullptr ? "support radius " : "half width of the support ") +
+                number(read.width(node, d)) + " is larger than half the length of periodic axis " +
+                std::to_string(d) + ", " + number(read.half_length[d]);
     }
     throw Error(status, text + "; " + std::to_string(count) + " such node" +
                             (count > 1 ? "s" : "") + " in this list");

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 
 namespace connectivity {
 
@@ -62,11 +62,15 @@ TensorSupport<Dim> tensor_support(const double* packed) {
             inverse_l(i, j) = sum / l(i, i);
         }
     const Matrix<Dim> inverse = inverse_l.transpose() * inverse_l;
-    for (int d = 0; d < Dim; ++d) support.half_width[d] = inverse.col(d).norm();
     // Inverse and |H r|² carry a relative error of a few units of roundoff times the condition
     // number.
     const double reach = norm_bound<Dim>(inverse), condition = reach * norm_bound<Dim>(h);
     const double slack = 64 * std::numeric_limits<double>::epsilon() * condition;
+    // A width that exceeds a limit by rounding only does not exceed it.
+    for (int d = 0; d < Dim; ++d)
+        support.half_width[d] = h.isDiagonal(0.0)
+                                    ? 1 / h(d, d)
+                                    : inverse.col(d).stableNorm() * (1 - std::min(slack, 0.1));
     support.positive_definite = true;
     support.radius = slack < 0.1 ? reach * (1 + slack) : std::numeric_limits<double>::infinity();
     return support;

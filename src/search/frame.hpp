@@ -37,7 +37,7 @@ struct Frame {
         // Nodes that see nobody meet thresholds of others only: the least of all bounds them.
         const double least2 = box.has_blind ? boxes.all().least : box.least,
                      least = std::sqrt(least2);
-        if (!(least > 0) || !std::isfinite(least)) return;
+        if (!(least > 0x1p-500) || !(least < 0x1p500)) return;  // scale² must be finite
         scale = std::exp2(-std::ilogb(least));
         const bool in_range = half * scale < 1e15 && boxes.all().reach2 * scale * scale < 1e30;
         if (in_range) error = 0x1p-24 * (7 * half / least + 16) + 8 * boxes.fold_error() / least;

@@ -43,7 +43,8 @@ bool GroupWorker<Dim>::is_wanted(const Range& range) const {
 
 template <int Dim>
 void GroupWorker<Dim>::process(const Range& range) {
-    if (!is_wanted(range)) {
+    const bool nobody_sees = sweep_->boxes.all().reach2 < 0;
+    if (nobody_sees || !is_wanted(range)) {
         const Slot* const slot = sweep_->order.slot.data();
         for (Offset p = range.first * leaf_size; p < range.last * leaf_size; ++p)
             if (slot[p] >= 0 && (range.only < 0 || p % leaf_size == range.only))
@@ -247,10 +248,11 @@ void GroupWorker<Dim>::process_exactly(const Range& range) {
     list.n = 0;
     leaf_.reserve(static_cast<int>(leaves_.size()) * leaf_size);
     for (const int leaf : leaves_)
-        for (int k = 0; k < leaf_size; ++k)
-            if (const Slot other = sweep_->order.slot(static_cast<Offset>(leaf) * leaf_size + k);
-                other >= 0)
+        for (int k = 0; k < leaf_size; ++k) {
+            const Slot other = sweep_->order.slot(static_cast<Offset>(leaf) * leaf_size + k);
+            if (other >= 0 && (other == slot || see_(slot, other, sweep_->mode)))
                 list.label[list.n++] = other;
+        }
     std::sort(list.label, list.label + list.n);
     std::fill_n(list.label + list.n, list_slack, no_label);
     const int words = n_words(list.n);

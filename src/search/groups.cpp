@@ -42,6 +42,7 @@ private:
 
 template <int Dim>
 void GroupSearch<Dim>::update_order(const SearchNodes<Dim>& nodes, Report& report) {
+    if (report.find("order") != nullptr) return;  // done in this build, for spatial_order()
     constexpr double worth_a_new_order = 1.5;
     const Stopwatch watch;
     const char* why = "kept: nodes moved little since it was made";
@@ -158,9 +159,9 @@ void GroupSearch<Dim>::report_costs(Report& report) const {
 }
 
 template <int Dim>
-View<Slot> GroupSearch<Dim>::spatial_order(const SearchNodes<Dim>& nodes) {
-    Report ignored;
-    update_order(nodes, ignored);
+View<Slot> GroupSearch<Dim>::spatial_order(const SearchNodes<Dim>& nodes, Report& report) {
+    update_order(nodes, report);
+    report.entry("order").asked_by = "caller";
     auto slots = allocate<Slot>("search/spatial_order", nodes.n);
     Offset at = 0;
     for (std::size_t p = 0; p < order_.slot.size(); ++p)

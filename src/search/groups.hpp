@@ -20,7 +20,7 @@ public:
              Products products, Report& report);
 
     /// Slots in the order of the search, [n].
-    View<Slot> spatial_order(const SearchNodes<Dim>& nodes);
+    View<Slot> spatial_order(const SearchNodes<Dim>& nodes, Report& report);
 
     Offset bytes() const;
 

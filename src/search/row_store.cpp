@@ -35,7 +35,7 @@ void RowStore::begin_sweep(Offset arena_bytes) {
 
 RowStore::Wanted RowStore::wanted(Slot slot) const {
     if (rows_ && layout_->is_stored(slot)) return Wanted::all;
-    return halves_ && slot < last_stored_ ? Wanted::later : Wanted::nothing;
+    return halves_ && slot <= last_stored_ ? Wanted::later : Wanted::nothing;
 }
 
 void RowStore::store_nothing(Slot slot) {

@@ -88,8 +88,8 @@ void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
 }
 
 template <int Dim>
-View<Slot> Search<Dim>::spatial_order(const SearchNodes<Dim>& nodes) {
-    return state_->groups.spatial_order(nodes);
+View<Slot> Search<Dim>::spatial_order(const SearchNodes<Dim>& nodes, Report& report) {
+    return state_->groups.spatial_order(nodes, report);
 }
 
 template <int Dim>

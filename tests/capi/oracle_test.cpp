@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <support/shared_data.hpp>
 #include "capi_support.hpp"
 
 namespace connectivity::test {
@@ -101,8 +102,10 @@ TEST(CapiOracle, rows_counts_gather_scatter_and_pairs_are_the_exact_ones) {
 }
 
 TEST(CapiOracle, the_full_reference_file_holds_too) {
-    std::ifstream file(CONNECTIVITY_SHARED_DIR "/oracle/connectivity_cases.json");
-    if (!file) GTEST_SKIP() << "no reference data beside the repository: " CONNECTIVITY_SHARED_DIR;
+    std::ifstream file(connectivity::test::shared_data("oracle/connectivity_cases.json"));
+    if (!file)
+        GTEST_SKIP() << "no reference data beside the repository: "
+                     << connectivity::test::shared_data("");
     check_file(file);
 }
 

@@ -7,17 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include <support/case.hpp>
+#include <support/shared_data.hpp>
 
 namespace connectivity::test {
 namespace {
 
 using nlohmann::json;
 
-#ifdef CONNECTIVITY_SHARED_DIR
-const std::string shared_dir = CONNECTIVITY_SHARED_DIR;
-#else
-const std::string shared_dir = CONNECTIVITY_SOURCE_DIR "/../shared";
-#endif
 const std::string own_file = CONNECTIVITY_SOURCE_DIR "/tests/support/data/connectivity_cases.json";
 
 std::vector<double> flat(const json& rows) {
@@ -129,8 +125,8 @@ TEST(OracleCases, rows_counts_gather_scatter_and_pairs_are_the_exact_ones) {
 }
 
 TEST(OracleCases, the_full_reference_file_holds_too) {
-    std::ifstream file(shared_dir + "/oracle/connectivity_cases.json");
-    if (!file) GTEST_SKIP() << "no reference data beside the repository: " << shared_dir;
+    std::ifstream file(shared_data("oracle/connectivity_cases.json"));
+    if (!file) GTEST_SKIP() << "no reference data beside the repository: " << shared_data("");
     check_file(file);
 }
 

@@ -24,6 +24,12 @@ protected:
             for (const SearchMethod method : all_methods) {
                 rebuild(map_, c, method);
                 ASSERT_TRUE(equals(map_, expected)) << name_of(method) << ", " << c.text;
+                if (expected.pair_offsets.empty()) continue;
+                MapOptions pairs_only = map_options(c, method);
+                pairs_only.rows = false;
+                map_.rebuild(node_lists(c), pairs_only);
+                ASSERT_TRUE(pairs_equal(map_.pairs().view(), expected))
+                    << "pairs alone, " << name_of(method) << ", " << c.text;
             }
         }
     }

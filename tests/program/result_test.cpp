@@ -147,7 +147,7 @@ Expected expected_of(const json& source) {
 }
 
 TEST(ResultOfPairs, reference_cases_are_met) {
-    std::ifstream in(shared_folder() + "/oracle/connectivity_cases.json");
+    std::ifstream in(shared_data("oracle/connectivity_cases.json"));
     if (!in) in.open(CONNECTIVITY_SOURCE_DIR "/tests/support/data/connectivity_cases.json");
     if (!in) GTEST_SKIP() << "the reference cases are not here";
     const json reference = json::parse(in);

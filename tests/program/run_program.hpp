@@ -16,6 +16,8 @@
 
 #include <io/plain_hdf5.hpp>
 
+#include <support/shared_data.hpp>
+
 namespace connectivity::test {
 
 struct Outcome {
@@ -67,12 +69,6 @@ inline Outcome run_program(const std::vector<std::string>& arguments,
     outcome.out = text_of(out);
     outcome.err = text_of(err);
     return outcome;
-}
-
-/// Folder of data shared by the project's checkouts; may not exist.
-inline std::string shared_folder() {
-    const char* const told = std::getenv("CONNECTIVITY_SHARED_DIR");
-    return told ? told : CONNECTIVITY_SOURCE_DIR "/../shared";
 }
 
 }  // namespace connectivity::test

@@ -119,7 +119,7 @@ protected:
     void SetUp() override {
         if (!std::filesystem::exists(path_)) GTEST_SKIP() << path_ << " is not here";
     }
-    const std::string path_ = shared_folder() + "/data/lcdm_gas_z0.hdf5";
+    const std::string path_ = shared_data("data/lcdm_gas_z0.hdf5");
     TemporaryFolder folder_;
 };
 

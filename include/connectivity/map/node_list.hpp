@@ -3,7 +3,7 @@
 /// A node list: a named set of nodes, internal ones first, then ghosts.
 ///
 /// Invariants: 1 <= dim <= 3; positions, and exactly one of h and H, agree on the number of nodes
-/// n; 0 <= n_internal <= n; kernel_extent > 0 and finite. Values (finite positions, h >= 0, H
+/// n; 0 <= n_internal <= n; kernel_extent in [1e-100, 1e100]. Values (finite positions, h >= 0, H
 /// positive definite) are checked by ConnectivityMap::rebuild, which reads them anyway. A node list
 /// shares the Views it was given and copies nothing: move the nodes, then rebuild.
 

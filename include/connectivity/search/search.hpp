@@ -53,7 +53,8 @@ public:
 
     /// Slots in an order that keeps neighbours close in memory, [n]; the order of the last run,
     /// where it sorted.
-    View<Slot> spatial_order(const SearchNodes<Dim>& nodes);
+    /// Call it right before `run` with the same nodes: the work is then done once.
+    View<Slot> spatial_order(const SearchNodes<Dim>& nodes, Report& report);
 
     /// Bytes of order and scratch memory held.
     Offset bytes() const;
