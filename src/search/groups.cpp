@@ -42,7 +42,6 @@ private:
 
 template <int Dim>
 void GroupSearch<Dim>::update_order(const SearchNodes<Dim>& nodes, Report& report) {
-    if (report.find("order") != nullptr) return;  // done in this build, for spatial_order()
     constexpr double worth_a_new_order = 1.5;
     const Stopwatch watch;
     const char* why = "kept: nodes moved little since it was made";
