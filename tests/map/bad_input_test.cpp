@@ -220,6 +220,24 @@ TEST(HalfBox, the_same_holds_for_a_diagonal_tensor) {
     }
 }
 
+TEST(HalfBox, a_tilted_needle_is_measured_along_the_axis) {
+    const auto needle =
+        [](double length) {  // half axes `length` along the diagonal and 1e-3 across
+            const double mean = 0.5 * (1 / length + 1e3), half = 0.5 * (1 / length - 1e3);
+            Case c = tensor_case(2, {0.1, 0.1, 0.55, 0.55, 0.8, 0.3}, {}, 1);
+            for (int node = 0; node < 3; ++node)
+                for (const double component : {mean, half, mean}) c.lists[0].H.push_back(component);
+            c.domain.periodic = {true, true, false};
+            c.domain.hi = {1, 1, 0};
+            return c;
+        };
+    ConnectivityMap map;
+    rebuild(map, needle(0.70));  // 0.70 / sqrt(2) = 0.495
+    EXPECT_TRUE(equals(map, brute_force(needle(0.70))));
+    EXPECT_EQ(map.pairs().size(), 1);
+    EXPECT_TRUE(fails_with(Status::half_box, {"node 0"}, [&] { rebuild(map, needle(0.72)); }));
+}
+
 TEST(NodeListShape, disagreeing_sizes_are_refused) {
     const std::vector<double> x(12, 0.0), h(4, 1.0), H(24, 1.0);
     const auto view = [](const std::vector<double>& v, std::size_t n) {

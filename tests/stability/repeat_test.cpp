@@ -2,6 +2,7 @@
 // Order of the input, offsets and repetition: the pairs are the same, and memory does not grow.
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -88,6 +89,28 @@ TEST(Translation, of_a_fine_lattice_far_from_the_origin_stays_exact) {
                 ASSERT_TRUE(equals(map, expected)) << offset << " " << name_of(method);
             }
         }
+}
+
+TEST(Translation, of_single_nodes_by_many_box_lengths_stays_exact) {
+    for (const double lengths : {1e0, 1e3, 1e6, 1e9, 1e12, 1e15}) {
+        Random random(11);
+        Case c = uniform_case(3, {}, 0);
+        for (int k = 0; k < 3 * 800; ++k)
+            c.lists[0].x.push_back(random.uniform() + std::rint(lengths * random.uniform(-1, 1)));
+        for (int k = 0; k < 800; ++k) c.lists[0].h.push_back(random.log_uniform(0.002, 0.1));
+        c.lists[0].n_internal = 800;
+        c.domain.hi = {1, 1, 1};
+        for (const int mask : {1, 6, 7}) {
+            for (std::size_t d = 0; d < 3; ++d) c.domain.periodic[d] = (mask >> d & 1) != 0;
+            const Expected expected = brute_force(c);
+            for (const SearchMethod method : all_methods) {
+                ConnectivityMap map;
+                rebuild(map, c, method);
+                ASSERT_TRUE(equals(map, expected))
+                    << lengths << " " << mask << " " << name_of(method);
+            }
+        }
+    }
 }
 
 TEST(Repetition, a_hundred_shrinking_rebuilds_keep_memory_flat) {

@@ -87,7 +87,7 @@ void place_nodes(Random& random, const Scene& s, const Case& c, int n, std::vect
             if (c.domain.periodic[static_cast<std::size_t>(d)]) {
                 if (s.images && random.chance(0.3))
                     value += c.domain.length(d) * (random.below(7) - 3) *
-                             (random.chance(0.02) ? 1e5 : 1.0);
+                             (random.chance(0.02) ? random.pick({1e5, 1e9}) : 1.0);
             } else if (outlier) {
                 value += 1e3 * s.side * random.uniform(-1, 1);
             }
