@@ -3,6 +3,11 @@
 
 namespace connectivity {
 
+ConstView<Offset> Csr::offsets() const {
+    if (offsets_.size() == 0) return {};
+    return Kokkos::subview(offsets_, range(n_rows_ + 1));
+}
+
 Offset Csr::bytes() const {
     return static_cast<Offset>((offsets_.size() + spare_.size()) * sizeof(Offset) +
                                values_.size() * sizeof(Slot));

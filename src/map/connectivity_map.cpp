@@ -61,10 +61,14 @@ SlotLayout layout_of(std::span<const NodeList> lists, bool ghost_rows) {
 void ConnectivityMap::rebuild(std::span<const NodeList> lists, const MapOptions& options) {
     start_runtime();
     check_request(lists, options);
-    switch (lists[0].dim()) {
-        case 1: return rebuild_in<1>(lists, options);
-        case 2: return rebuild_in<2>(lists, options);
-        default: return rebuild_in<3>(lists, options);
+    try {
+        switch (lists[0].dim()) {
+            case 1: return rebuild_in<1>(lists, options);
+            case 2: return rebuild_in<2>(lists, options);
+            default: return rebuild_in<3>(lists, options);
+        }
+    } catch (const std::bad_alloc&) {
+        throw Error(Status::memory, "rebuild: out of memory");
     }
 }
 
@@ -93,8 +97,8 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
                 impl_->storage.bytes(),
                 preparing.ms()};
 
-    const SearchRequest request{options.rows, options.pairs, options.mode, options.method,
-                                options.budget};
+    const SearchRequest request{options.rows,   options.pairs,  options.mode,
+                                options.method, options.budget, options.spatial_order};
     auto& search = impl_->search<Dim>();
     ConstView<Slot> order;
     if (options.spatial_order) order = search.spatial_order(nodes, report);
@@ -108,6 +112,8 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
     options_ = options;
     order_ = order;
     std::swap(report_, report);
+    if (!options.pairs) pairs_.first_ = {};
+    report_.entry("pairs").bytes = pairs_.bytes();
     pairs_.generation_ = ++generation_;
 }
 

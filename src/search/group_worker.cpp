@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "group_worker.hpp"
 
+#include <limits>
 #include <numeric>
 
 namespace connectivity::detail {
@@ -97,20 +98,24 @@ void GroupWorker<Dim>::find_leaves(const ReachBox<Dim>& box) {
     }
 }
 
+/// Appends the candidates of one periodic image. False if there might be more than can be counted.
 template <int Dim>
-void GroupWorker<Dim>::collect_image(const Frame<Dim>& frame, const double (&image)[Dim]) {
+bool GroupWorker<Dim>::collect_image(const Frame<Dim>& frame, const double (&image)[Dim]) {
+    constexpr std::size_t most = std::numeric_limits<int>::max() / leaf_size - 1;
     ReachBox<Dim> moved = frame.box;
     for (int d = 0; d < Dim; ++d) moved.lo[d] -= image[d], moved.hi[d] -= image[d];
     find_leaves(moved);
-    if (leaves_.empty()) return;
+    if (leaves_.empty()) return true;
+    if (static_cast<std::size_t>(found_.list.n / leaf_size) + leaves_.size() > most) return false;
     found_.reserve(found_.list.n + static_cast<int>(leaves_.size()) * leaf_size);
     sweep_->kernels.collect(sweep_->boxes.leaf_array(sweep_->order), leaves_.data(),
                             static_cast<int>(leaves_.size()), frame.map(image),
                             frame.inside(frame.box, sweep_->boxes.fold_error()), found_.list);
+    return true;
 }
 
-/// Fills block_ with sorted candidates. False if a node came with two images: its distance is then
-/// not one number.
+/// Fills block_ with sorted candidates. False if a node came with two images, its distance then not
+/// being one number, or if there are too many.
 template <int Dim>
 bool GroupWorker<Dim>::find_candidates(const Frame<Dim>& frame) {
     const auto& periods = sweep_->nodes.periods;
@@ -121,7 +126,7 @@ bool GroupWorker<Dim>::find_candidates(const Frame<Dim>& frame) {
         double shift[Dim];
         for (int d = 0; d < Dim; ++d) shift[d] = image[d] * periods.length[d];
         const int before = found_.list.n;
-        collect_image(frame, shift);
+        if (!collect_image(frame, shift)) return false;
         images += found_.list.n > before;
         more = false;
         for (int d = 0; d < Dim && !more; ++d) {

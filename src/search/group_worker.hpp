@@ -50,7 +50,7 @@ private:
     void process(const Range& range);
     void split(const Range& range);
     bool find_candidates(const Frame<Dim>& frame);
-    void collect_image(const Frame<Dim>& frame, const double (&image)[Dim]);
+    bool collect_image(const Frame<Dim>& frame, const double (&image)[Dim]);
     void find_leaves(const ReachBox<Dim>& box);
     void test_groups(const Range& range, const Frame<Dim>& frame);
     void test_leaf(Offset leaf, int only, const Frame<Dim>& frame);

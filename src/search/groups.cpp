@@ -55,8 +55,8 @@ void GroupSearch<Dim>::update_order(const SearchNodes<Dim>& nodes, Report& repor
         spread_when_ordered_ = boxes_.spread();
         why = fresh ? "new: number of nodes changed" : "new: blocks had spread by half";
     }
-    report.entry("order") = {
-        "order", "search", why, true, !fresh && !worn, order_.bytes() + boxes_.bytes(), watch.ms()};
+    report.entry("order") = {"order",         "search",      why,       true,
+                             !fresh && !worn, order_bytes(), watch.ms()};
 }
 
 /// Every stride-th block, the ones with the largest supports first.
@@ -98,7 +98,6 @@ Offset GroupSearch<Dim>::estimate_entries(const GroupSweep<Dim>& shared) {
 template <int Dim>
 void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
                            const SearchRequest& request, Products products, Report& report) {
-    update_order(nodes, report);
     const Kernels<Dim>& table = kernels<Dim>();
     if (workers_.size() < static_cast<std::size_t>(n_workers()))
         workers_ = std::vector<GroupWorker<Dim>>(n_workers());
@@ -107,10 +106,10 @@ void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layo
     const GroupSweep<Dim> shared{nodes, order_, boxes_, table, request.mode, bits_for(nodes.n),
                                  store_};
     find_rows(shared, layout, request, products);
+    count_work(report);
     store_.transfer(products);
     entries_before_ = std::max(request.rows ? products.rows.n_values() : 0,
                                request.half_rows ? products.halves.n_values() : 0);
-    report_costs(report);
 }
 
 /// One sweep where the rows are about as many as expected. Where they are more, or might not fit
@@ -132,8 +131,10 @@ void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout
         store_.begin_sweep(free);
         sweep(shared, 1);
         if (store_.only_counted())
-            throw Error(Status::budget,
-                        "the search needs more than " + human_bytes(free) + " while it runs");
+            throw Error(Status::budget, "the search needs more than " + human_bytes(free) +
+                                            " while it runs, the memory that is free, beside the " +
+                                            human_bytes(products.prepared_bytes()) +
+                                            " of its result");
     } catch (...) {
         store_.release();
         throw;
@@ -141,27 +142,22 @@ void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout
 }
 
 template <int Dim>
-void GroupSearch<Dim>::report_costs(Report& report) const {
-    Offset candidates = 0, doubts = 0, exact = 0, scratch = store_.bytes();
+void GroupSearch<Dim>::count_work(Report& report) const {
+    Offset candidates = 0, doubts = 0, exact = 0;
     for (const auto& worker : workers_) {
         candidates += worker.counters.candidates;
         doubts += worker.counters.doubts;
         exact += worker.counters.exact_nodes;
-        scratch += worker.bytes();
     }
     report.counter("candidates") = candidates;
     report.counter("doubtful_words") = doubts;
     report.counter("nodes_tested_in_double") = exact;
     report.counter("blocks") = order_.n_blocks();
-    report.entry("scratch") = {
-        "scratch", "search", "rows wait here until all are counted", true, true, scratch, 0};
 }
 
 template <int Dim>
-View<Slot> GroupSearch<Dim>::spatial_order(const SearchNodes<Dim>& nodes, Report& report) {
-    update_order(nodes, report);
-    report.entry("order").asked_by = "caller";
-    auto slots = allocate<Slot>("search/spatial_order", nodes.n);
+View<Slot> GroupSearch<Dim>::spatial_order() const {
+    auto slots = allocate<Slot>("search/spatial_order", order_.n);
     Offset at = 0;
     for (std::size_t p = 0; p < order_.slot.size(); ++p)
         if (order_.slot(p) >= 0) slots(at++) = order_.slot(p);
@@ -169,8 +165,8 @@ View<Slot> GroupSearch<Dim>::spatial_order(const SearchNodes<Dim>& nodes, Report
 }
 
 template <int Dim>
-Offset GroupSearch<Dim>::bytes() const {
-    Offset sum = order_.bytes() + boxes_.bytes() + store_.bytes();
+Offset GroupSearch<Dim>::scratch_bytes() const {
+    Offset sum = store_.bytes();
     for (const auto& worker : workers_) sum += worker.bytes();
     return sum;
 }

@@ -15,22 +15,26 @@ namespace connectivity::detail {
 template <int Dim>
 class GroupSearch {
 public:
-    /// Throws Error{budget | memory}; the products are then as before.
+    /// Orders the nodes, or keeps the order there is, and gathers them. Throws Error{memory}.
+    void update_order(const SearchNodes<Dim>& nodes, Report& report);
+
+    /// Finds the rows of the nodes ordered last. Throws Error{budget | memory}; the products are
+    /// then as before.
     void run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request,
              Products products, Report& report);
 
-    /// Slots in the order of the search, [n].
-    View<Slot> spatial_order(const SearchNodes<Dim>& nodes, Report& report);
+    /// Slots in the order made last, [n].
+    View<Slot> spatial_order() const;
 
-    Offset bytes() const;
+    Offset order_bytes() const { return order_.bytes() + boxes_.bytes(); }
+    Offset scratch_bytes() const;
 
 private:
-    void update_order(const SearchNodes<Dim>& nodes, Report& report);
     void sweep(const GroupSweep<Dim>& shared, Offset stride);
     Offset estimate_entries(const GroupSweep<Dim>& shared);
     void find_rows(const GroupSweep<Dim>& shared, const SlotLayout& layout,
                    const SearchRequest& request, Products products);
-    void report_costs(Report& report) const;
+    void count_work(Report& report) const;
 
     GroupOrder order_;
     GroupBoxes<Dim> boxes_;

@@ -27,6 +27,12 @@ struct Products {
 
     /// Offsets, budget check, storage. Throws Error{budget | memory}; the lists are as before.
     void prepare(const Counts& counts, const SlotLayout& layout, const Budget& budget);
+
+    /// Bytes of the values prepared.
+    Offset prepared_bytes() const {
+        return (rows.prepared_values() + halves.prepared_values()) *
+               static_cast<Offset>(sizeof(Slot));
+    }
 };
 
 /// Throws Error{budget}: bytes needed and allowed, number of entries, and the node with most

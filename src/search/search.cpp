@@ -51,10 +51,10 @@ Choice choose(SearchMethod asked, Offset n) {
             "groups: " + std::to_string(n) + " nodes, more than " + std::to_string(few)};
 }
 
-void report_product(Report& report, const char* name, bool asked, const std::string& reason,
-                    const Csr& list, double ms) {
-    report.entry(name) = {name,  asked ? "caller" : "", asked ? reason : "", asked,
-                          false, list.bytes(),          asked ? ms : 0};
+void announce(Report& report, const char* product, const char* asked_by,
+              const std::string& reason) {
+    const bool asked = *asked_by != 0;
+    report.entry(product) = {product, asked_by, asked ? reason : "", asked, false, 0, 0};
 }
 
 }  // namespace
@@ -62,9 +62,21 @@ void report_product(Report& report, const char* name, bool asked, const std::str
 template <int Dim>
 void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
                       const SearchRequest& request, Csr& rows, Csr& half_rows, Report& report) {
-    const Stopwatch watch;
     const detail::Products products{rows, half_rows};
     const Choice choice = choose(request.method, nodes.n);
+    const bool groups = choice.method == SearchMethod::groups;
+    auto& group_search = state_->groups;
+    const Offset scratch_before = group_search.scratch_bytes();
+
+    // Entries are made before the work: nothing may fail once the new lists are out.
+    announce(report, "rows", request.rows ? "caller" : "", choice.reason);
+    announce(report, "pairs", request.half_rows ? "caller" : "",
+             request.rows ? "found with the rows" : choice.reason);
+    announce(report, "scratch", groups ? "search" : "", "rows wait here until all are counted");
+    if (groups && !request.ordered) group_search.update_order(nodes, report);
+    if (!groups && !request.ordered) announce(report, "order", "", "");
+
+    const Stopwatch watch;
     switch (choice.method) {
         case SearchMethod::brute:
             detail::DirectBuild<Dim, detail::AllNodes>({nodes.n}, nodes, layout, request)
@@ -76,25 +88,29 @@ void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
                 .run(products);
             break;
         }
-        default: state_->groups.run(nodes, layout, request, products, report);
+        default: group_search.run(nodes, layout, request, products, report);
     }
     if (!request.rows) rows.clear();
     if (!request.half_rows) half_rows.clear();
-    const double ms = watch.ms();
-    report_product(report, "rows", request.rows, choice.reason, rows, ms);
-    report_product(report, "pairs", request.half_rows,
-                   request.rows ? "found with the rows" : choice.reason, half_rows,
-                   request.rows ? 0 : ms);
+    if (request.rows || request.half_rows)
+        report.entry(request.rows ? "rows" : "pairs").ms = watch.ms();
+    report.entry("rows").bytes = rows.bytes();
+    report.entry("pairs").bytes = half_rows.bytes();
+    report.entry("order").bytes = group_search.order_bytes();
+    report.entry("scratch").bytes = group_search.scratch_bytes();
+    report.entry("scratch").reused = group_search.scratch_bytes() == scratch_before && groups;
 }
 
 template <int Dim>
 View<Slot> Search<Dim>::spatial_order(const SearchNodes<Dim>& nodes, Report& report) {
-    return state_->groups.spatial_order(nodes, report);
+    state_->groups.update_order(nodes, report);
+    report.entry("order").asked_by = "caller";
+    return state_->groups.spatial_order();
 }
 
 template <int Dim>
 Offset Search<Dim>::bytes() const {
-    return state_->groups.bytes();
+    return state_->groups.order_bytes() + state_->groups.scratch_bytes();
 }
 
 template class Search<1>;

@@ -13,13 +13,6 @@
 namespace connectivity::test {
 namespace {
 
-Case cloud(int n, std::uint64_t seed, double h = 0.1) {
-    Random random(seed);
-    std::vector<double> x;
-    for (int k = 0; k < 3 * n; ++k) x.push_back(random.uniform());
-    return uniform_case(3, std::move(x), h);
-}
-
 TEST(Rebuild, growing_and_shrinking_sequences_leave_nothing_behind) {
     ConnectivityMap map;
     for (const int n : {10, 800, 3, 0, 500, 1200, 1, 2, 1200, 40})

@@ -15,7 +15,7 @@
 namespace connectivity::test {
 namespace {
 
-Case cloud(int n, std::uint64_t seed) {
+Case varied_cloud(int n, std::uint64_t seed) {
     Random random(seed);
     std::vector<double> x, h;
     for (int k = 0; k < 3 * n; ++k) x.push_back(random.uniform());
@@ -25,7 +25,7 @@ Case cloud(int n, std::uint64_t seed) {
 
 TEST(InputOrder, does_not_change_which_nodes_are_neighbours) {
     const int n = 10000;
-    const Case original = cloud(n, 1);
+    const Case original = varied_cloud(n, 1);
     using Pair = std::pair<Slot, Slot>;
     std::vector<Pair> wanted;
     Random random(2);
@@ -115,7 +115,7 @@ TEST(Translation, of_single_nodes_by_many_box_lengths_stays_exact) {
 
 TEST(Repetition, a_hundred_shrinking_rebuilds_keep_memory_flat) {
     ConnectivityMap map;
-    const Case large = cloud(20000, 4);
+    const Case large = varied_cloud(20000, 4);
     const auto shrunk = [&](int n) {
         Case c = large;
         c.lists[0].x.resize(static_cast<std::size_t>(3 * n));
@@ -140,16 +140,16 @@ TEST(Repetition, a_hundred_shrinking_rebuilds_keep_memory_flat) {
 
 TEST(StaleUse, views_tell_their_generation_and_missing_products_are_errors) {
     ConnectivityMap map;
-    rebuild(map, cloud(500, 5));
+    rebuild(map, varied_cloud(500, 5));
     const auto rows = map.rows();
     const auto pairs = map.pairs().view();
     EXPECT_EQ(rows.generation, map.generation());
-    rebuild(map, cloud(400, 6));
+    rebuild(map, varied_cloud(400, 6));
     EXPECT_NE(rows.generation, map.generation());
     EXPECT_NE(pairs.generation, map.generation());
     MapOptions options;
     options.pairs = false;
-    const Case c = cloud(300, 7);
+    const Case c = varied_cloud(300, 7);
     map.rebuild(node_lists(c), options);
     EXPECT_TRUE(fails_with(Status::not_built, {"pairs"}, [&] { (void)map.pairs(); }));
     options.rows = false;

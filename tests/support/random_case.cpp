@@ -219,4 +219,11 @@ Case random_case(std::uint64_t seed, const CaseKind& kind) {
     return c;
 }
 
+Case cloud(int n, std::uint64_t seed, double h) {
+    Random random(seed);
+    std::vector<double> x;
+    for (int k = 0; k < 3 * n; ++k) x.push_back(random.uniform());
+    return uniform_case(3, std::move(x), h);
+}
+
 }  // namespace connectivity::test

@@ -23,4 +23,7 @@ class Random;
 /// Writes n_symmetric(dim) values.
 void rotated_tensor(int dim, const double (&axes)[3], Random& random, double* packed);
 
+/// n nodes anywhere in the unit cube, all with the same h.
+Case cloud(int n, std::uint64_t seed, double h = 0.1);
+
 }  // namespace connectivity::test

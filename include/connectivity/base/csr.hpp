@@ -22,8 +22,8 @@ public:
     Offset n_rows() const { return n_rows_; }
     Offset n_values() const { return n_values_; }
 
-    /// [n_rows + 1], host.
-    ConstView<Offset> offsets() const { return Kokkos::subview(offsets_, range(n_rows_ + 1)); }
+    /// [n_rows + 1], host; empty before the first commit and after `clear`.
+    ConstView<Offset> offsets() const;
     /// [n_values], host.
     ConstView<Slot> values() const { return Kokkos::subview(values_, range(n_values_)); }
 

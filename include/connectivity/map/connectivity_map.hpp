@@ -40,7 +40,7 @@ class ConnectivityMap {
 public:
     ConnectivityMap();
     ~ConnectivityMap();
-    ConnectivityMap(ConnectivityMap&&) noexcept;
+    ConnectivityMap(ConnectivityMap&&) noexcept;  ///< what was moved from may only be assigned to
     ConnectivityMap& operator=(ConnectivityMap&&) noexcept;
 
     /// Finds all neighbours anew. `lists` (at least one, all of one dimension) are read during the

@@ -34,6 +34,7 @@ struct SearchRequest {
     SearchMode mode = SearchMode::gather_scatter;
     SearchMethod method = SearchMethod::automatic;
     Budget budget;
+    bool ordered = false;  ///< spatial_order() was called just before for these very nodes
 };
 
 /// A searcher keeps its order of the nodes and its scratch memory from build to build.
@@ -51,9 +52,9 @@ public:
     void run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request,
              Csr& rows, Csr& half_rows, Report& report);
 
-    /// Slots in an order that keeps neighbours close in memory, [n]; the order of the last run,
-    /// where it sorted.
-    /// Call it right before `run` with the same nodes: the work is then done once.
+    /// Slots in an order that keeps neighbours close in memory, [n]: the one that `groups` works
+    /// in. Call it right before `run`, tell by SearchRequest::ordered, and the work is done once.
+    /// Throws Error{memory}.
     View<Slot> spatial_order(const SearchNodes<Dim>& nodes, Report& report);
 
     /// Bytes of order and scratch memory held.
