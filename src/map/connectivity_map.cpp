@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <connectivity/map/connectivity_map.hpp>
 
+#include <cmath>
+#include <limits>
 #include <tuple>
 
 #include <connectivity/base/runtime.hpp>
 
+#include "drift.hpp"
 #include "prepare.hpp"
 
 namespace connectivity {
 
-/// What survives from build to build: joined inputs and one searcher for each dimension in use.
+/// What survives from build to build: joined inputs, one searcher for each dimension in use, and
+/// with a skin the state to measure drift from.
 struct ConnectivityMap::Impl {
     PreparedStorage storage;
+    DriftReference reference;
     std::tuple<Search<1>, Search<2>, Search<3>> searches;
 
     template <int Dim>
@@ -47,6 +52,9 @@ void check_request(std::span<const NodeList> lists, const MapOptions& options) {
     if (options.budget.bytes < 0)
         throw Error(Status::argument, "rebuild: budget of " + std::to_string(options.budget.bytes) +
                                           " bytes, must be >= 0");
+    if (options.skin != 0 && !(options.skin >= 1e-100 && options.skin <= 1e100))
+        throw Error(Status::argument, "rebuild: skin = " + std::to_string(options.skin) +
+                                          ", must be 0 or in [1e-100, 1e100]");
     options.domain.check(lists[0].dim());
 }
 
@@ -87,7 +95,8 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
         names.push_back(list.name()), n_internal.push_back(list.n_internal());
 
     const Stopwatch preparing;
-    const SearchNodes<Dim> nodes = prepare_nodes<Dim>(lists, options.domain, impl_->storage);
+    const SearchNodes<Dim> nodes =
+        prepare_nodes<Dim>(lists, options.domain, impl_->storage, options.skin);
     auto& prepared = report.entry("nodes");
     prepared = {"nodes",
                 "search",
@@ -102,6 +111,7 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
     auto& search = impl_->search<Dim>();
     ConstView<Slot> order;
     if (options.spatial_order) order = search.spatial_order(nodes, report);
+    reserve_reference(lists, options, report);
     search.run(nodes, layout, request, rows_, pairs_.half_rows_, report);
 
     // Nothing below can fail: this is where the new lists become the map's.
@@ -111,10 +121,65 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
     dim_ = Dim;
     options_ = options;
     order_ = order;
+    keep_reference(lists, report);
     std::swap(report_, report);
     if (!options.pairs) pairs_.first_ = {};
     report_.entry("pairs").bytes = pairs_.bytes();
     pairs_.generation_ = ++generation_;
+}
+
+/// All that may fail; the lists are still the old ones.
+void ConnectivityMap::reserve_reference(std::span<const NodeList> lists, const MapOptions& options,
+                                        Report& report) {
+    auto& entry = report.entry("skin");
+    count_reuse(report);
+    if (options.skin == 0) return;
+    entry.asked_by = "caller";
+    entry.reason = "positions and supports to measure drift from";
+    entry.built = true;
+    const Stopwatch reserving;
+    const Offset held = impl_->reference.bytes();
+    impl_->reference.reserve(lists);
+    entry.reused = held > 0 && impl_->reference.bytes() == held;
+    entry.ms = reserving.ms();
+}
+
+void ConnectivityMap::keep_reference(std::span<const NodeList> lists, Report& report) {
+    const Stopwatch keeping;
+    auto& entry = report.entry("skin");
+    if (options_.skin > 0) {
+        impl_->reference.keep(lists, options_.domain);
+        entry.bytes = impl_->reference.bytes();
+        entry.ms += keeping.ms();
+    } else {
+        impl_->reference.clear();
+    }
+    ++reuse_.rebuilds;
+    count_reuse(report);
+}
+
+/// Counters are whole numbers: the drift goes in as millionths of the skin.
+void ConnectivityMap::count_reuse(Report& report) const {
+    report.counter("rebuilds") = reuse_.rebuilds;
+    report.counter("reuses") = reuse_.reuses;
+    report.counter("max_drift_ppm") =
+        options_.skin > 0 ? std::llround(std::min(1e6 * (reuse_.max_drift / options_.skin), 1e18))
+                          : 0;
+}
+
+double ConnectivityMap::drift(std::span<const NodeList> lists) const {
+    if (generation_ == 0 || options_.skin == 0) return std::numeric_limits<double>::infinity();
+    start_runtime();
+    return impl_->reference.drift(lists);
+}
+
+bool ConnectivityMap::needs_rebuild(std::span<const NodeList> lists) {
+    const double now = drift(lists);
+    if (!(now <= options_.skin)) return true;
+    ++reuse_.reuses;
+    reuse_.max_drift = std::max(reuse_.max_drift, now);
+    count_reuse(report_);
+    return false;
 }
 
 RowsView<> ConnectivityMap::rows() const {

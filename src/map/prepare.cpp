@@ -14,40 +14,49 @@ namespace {
 template <int Dim>
 struct ListReader {
     const double* positions;
-    const double* h;                      // nullptr for tensors
-    const double* H;                      // nullptr for scalars
-    double extent;                        // maximum over all lists
+    const double* h;  // nullptr for tensors
+    const double* H;  // nullptr for scalars
+    double extent;    // maximum over all lists
+    double skin;
+    double* widened;  // where tensors with the skin around them go; nullptr without skin
     std::array<double, Dim> half_length;  // of periodic axes, infinity elsewhere
-
-    double reach(double radius) const { return extent * radius; }
 
     /// First fault of a node, and its squared reach if there is none.
     Fault examine(Offset node, double& reach2) const {
         for (int d = 0; d < Dim; ++d)
             if (!std::isfinite(positions[node * Dim + d])) return Fault::position;
-        return h != nullptr ? examine_scalar(h[node], reach2)
-                            : examine_tensor(H + node * n_symmetric(Dim), reach2);
+        return h != nullptr ? examine_scalar(h[node], reach2) : examine_tensor(node, reach2);
     }
 
     /// How far the support of a node without other faults reaches along an axis.
     double width(Offset node, int d) const {
-        return extent * (h != nullptr
-                             ? h[node]
-                             : tensor_support<Dim>(H + node * n_symmetric(Dim)).half_width[d]);
+        return h != nullptr ? extent * h[node] + skin
+                            : extent * tensor_support<Dim>(tested(node)).half_width[d];
     }
 
 private:
+    const double* tensor(Offset node) const { return H + node * n_symmetric(Dim); }
+    /// The tensor that the search will read.
+    const double* tested(Offset node) const {
+        return widened != nullptr ? widened + node * n_symmetric(Dim) : tensor(node);
+    }
+
     Fault examine_scalar(double length, double& reach2) const {
         if (!(length >= 0) || !std::isfinite(length)) return Fault::support;
         for (int d = 0; d < Dim; ++d)
-            if (!(extent * length <= half_length[d])) return Fault::half_box;
-        reach2 = scalar_reach2(length, extent);
+            if (!(extent * length + skin <= half_length[d])) return Fault::half_box;
+        reach2 = skin > 0 ? widened_reach2(length, extent, skin) : scalar_reach2(length, extent);
         return Fault::none;
     }
 
-    Fault examine_tensor(const double* tensor, double& reach2) const {
-        const TensorSupport<Dim> support = tensor_support<Dim>(tensor);
+    Fault examine_tensor(Offset node, double& reach2) const {
+        TensorSupport<Dim> support = tensor_support<Dim>(tensor(node));
         if (!support.positive_definite) return Fault::not_spd;
+        if (widened != nullptr) {
+            if (!widen_tensor<Dim>(tensor(node), extent, skin, widened + node * n_symmetric(Dim)))
+                return Fault::ill_conditioned;
+            support = tensor_support<Dim>(tested(node));
+        }
         for (int d = 0; d < Dim; ++d)
             if (!(extent * support.half_width[d] <= half_length[d])) return Fault::half_box;
         const double reach = extent * support.radius;
@@ -58,11 +67,13 @@ private:
 };
 
 template <int Dim>
-ListReader<Dim> reader(const NodeList& list, double extent, const Domain& domain) {
+ListReader<Dim> reader(const NodeList& list, double extent, double skin, const Domain& domain) {
     ListReader<Dim> r{list.positions().data(),
                       list.has_tensor() ? nullptr : list.h().data(),
                       list.has_tensor() ? list.H().data() : nullptr,
                       extent,
+                      skin,
+                      nullptr,
                       {}};
     for (int d = 0; d < Dim; ++d)
         r.half_length[d] =
@@ -89,6 +100,13 @@ std::string number(double value) {
     return text.data();
 }
 
+template <int Dim>
+std::string describe_tensor(const double* tensor) {
+    std::string text = "H = (";
+    for (int k = 0; k < n_symmetric(Dim); ++k) text += (k > 0 ? ", " : "") + number(tensor[k]);
+    return text + ")";
+}
+
 /// Says what is wrong with the first offending node and how many share its fault.
 template <int Dim>
 [[noreturn]] void report_fault(const ListReader<Dim>& read, std::span<const NodeList> lists,
@@ -110,10 +128,12 @@ template <int Dim>
         text += "h = " + number(read.h[node]) + ", must be finite and >= 0";
     } else if (fault == Fault::not_spd) {
         status = Status::not_spd;
-        text += "H = (";
-        for (int k = 0; k < n_symmetric(Dim); ++k)
-            text += (k > 0 ? ", " : "") + number(read.H[node * n_symmetric(Dim) + k]);
-        text += "), must be finite and positive definite";
+        text += describe_tensor<Dim>(read.H + node * n_symmetric(Dim)) +
+                ", must be finite and positive definite";
+    } else if (fault == Fault::ill_conditioned) {
+        status = Status::not_spd;
+        text += describe_tensor<Dim>(read.H + node * n_symmetric(Dim)) +
+                ", must have a condition number below 7e12 with a skin";
     } else {
         status = Status::half_box;
         int d = 0;
@@ -156,23 +176,28 @@ ConstView<double> join_positions(std::span<const NodeList> lists, Offset n,
     return Kokkos::subview(storage.positions, std::pair<std::size_t, std::size_t>(0, n * Dim));
 }
 
-/// Tensors of all lists: empty if none has any; zeros stand for nodes with scalar h.
+bool any_tensor(std::span<const NodeList> lists) {
+    return std::any_of(lists.begin(), lists.end(),
+                       [](const NodeList& l) { return l.has_tensor(); });
+}
+
+/// Tensors of all lists: empty if none has any; zeros stand for nodes with scalar h. Widened ones
+/// are in the storage already.
 template <int Dim>
-ConstView<double> join_tensors(std::span<const NodeList> lists, Offset n,
+ConstView<double> join_tensors(std::span<const NodeList> lists, Offset n, bool widened,
                                PreparedStorage& storage) {
-    if (std::none_of(lists.begin(), lists.end(), [](const NodeList& l) { return l.has_tensor(); }))
-        return {};
-    if (lists.size() == 1) return lists[0].H();
+    if (!any_tensor(lists)) return {};
+    if (lists.size() == 1 && !widened) return lists[0].H();
     constexpr Offset size = n_symmetric(Dim);
-    ensure_capacity(storage.H, "map/H", n * size);
+    if (!widened) ensure_capacity(storage.H, "map/H", n * size);
     Offset at = 0;
     for (const NodeList& list : lists) {
-        if (list.has_tensor())
-            append(storage.H, at, list.H());
-        else
+        if (!list.has_tensor())
             Kokkos::deep_copy(Kokkos::subview(storage.H, std::pair<std::size_t, std::size_t>(
                                                              at, at + list.n() * size)),
                               0.0);
+        else if (!widened)
+            append(storage.H, at, list.H());
         at += list.n() * size;
     }
     HostExec().fence();
@@ -183,30 +208,33 @@ ConstView<double> join_tensors(std::span<const NodeList> lists, Offset n,
 
 template <int Dim>
 SearchNodes<Dim> prepare_nodes(std::span<const NodeList> lists, const Domain& domain,
-                               PreparedStorage& storage) {
+                               PreparedStorage& storage, double skin) {
     SearchNodes<Dim> nodes;
+    const bool widens_tensors = skin > 0 && any_tensor(lists);
     const double extent = largest_extent<Dim>(lists);
     for (const NodeList& list : lists) nodes.n += list.n();
     nodes.extent2 = extent * extent;
     nodes.periods = periods<Dim>(domain);
     ensure_capacity(storage.reach2, "map/reach2", nodes.n);
+    if (widens_tensors) ensure_capacity(storage.H, "map/H", nodes.n * n_symmetric(Dim));
     Offset at = 0;
     for (std::size_t l = 0; l < lists.size(); at += lists[l].n(), ++l) {
-        const auto read = reader<Dim>(lists[l], extent, domain);
+        auto read = reader<Dim>(lists[l], extent, skin, domain);
+        if (widens_tensors) read.widened = storage.H.data() + at * n_symmetric(Dim);
         const Offset bad = check_list<Dim>(read, lists[l].n(), storage.reach2.data() + at);
         if (bad < lists[l].n()) report_fault<Dim>(read, lists, l, bad);
     }
     nodes.reach2 = Kokkos::subview(storage.reach2, std::pair<std::size_t, std::size_t>(0, nodes.n));
     nodes.positions = join_positions<Dim>(lists, nodes.n, storage);
-    nodes.H = join_tensors<Dim>(lists, nodes.n, storage);
+    nodes.H = join_tensors<Dim>(lists, nodes.n, widens_tensors, storage);
     return nodes;
 }
 
-template SearchNodes<1> prepare_nodes<1>(std::span<const NodeList>, const Domain&,
-                                         PreparedStorage&);
-template SearchNodes<2> prepare_nodes<2>(std::span<const NodeList>, const Domain&,
-                                         PreparedStorage&);
-template SearchNodes<3> prepare_nodes<3>(std::span<const NodeList>, const Domain&,
-                                         PreparedStorage&);
+template SearchNodes<1> prepare_nodes<1>(std::span<const NodeList>, const Domain&, PreparedStorage&,
+                                         double);
+template SearchNodes<2> prepare_nodes<2>(std::span<const NodeList>, const Domain&, PreparedStorage&,
+                                         double);
+template SearchNodes<3> prepare_nodes<3>(std::span<const NodeList>, const Domain&, PreparedStorage&,
+                                         double);
 
 }  // namespace connectivity

@@ -3,8 +3,8 @@
 /// From node lists to what the search reads: one checking pass, supports as squared radii, lists
 /// laid end to end.
 ///
-/// A single list is read where it lies. Several lists are copied into storage that is reused from
-/// build to build.
+/// A single list is read where it lies. Several lists, and tensors that a skin widens, are written
+/// into storage that is reused from build to build.
 
 #include <span>
 
@@ -21,11 +21,11 @@ struct PreparedStorage {
     }
 };
 
-/// Checks every value and lays the lists end to end. Throws Error{nonfinite | support | not_spd |
-/// half_box} with the first offending node in slot order and the number of nodes that offend in the
-/// same way.
+/// Checks every value, widens supports by `skin` >= 0 and lays the lists end to end. Throws
+/// Error{nonfinite | support | not_spd | half_box} with the first offending node in slot order and
+/// the number of nodes that offend in the same way.
 template <int Dim>
 SearchNodes<Dim> prepare_nodes(std::span<const NodeList> lists, const Domain& domain,
-                               PreparedStorage& storage);
+                               PreparedStorage& storage, double skin = 0);
 
 }  // namespace connectivity

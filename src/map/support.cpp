@@ -47,37 +47,102 @@ double norm_bound(const Matrix<Dim>& a) {
     return row_sum * std::min(1.0, std::sqrt(std::sqrt((square * square).norm())));
 }
 
-}  // namespace
+/// The inverse of a packed tensor and how far it is from the exact one.
+template <int Dim>
+struct Inverse {
+    bool positive_definite = false;
+    Matrix<Dim> tensor, inverse;
+    double reach = 0;  ///< largest eigenvalue of the inverse, from above
+    /// Relative error of the inverse and of |H r|: a few units of roundoff times the condition
+    /// number.
+    double slack = 0;
+};
 
 template <int Dim>
-TensorSupport<Dim> tensor_support(const double* packed) {
-    TensorSupport<Dim> support;
-    const Matrix<Dim> h = unpack<Dim>(packed);
+Inverse<Dim> invert(const double* packed) {
+    Inverse<Dim> result;
+    const Matrix<Dim> h = result.tensor = unpack<Dim>(packed);
     Matrix<Dim> l, inverse_l = Matrix<Dim>::Identity();
-    if (!h.allFinite() || !cholesky<Dim>(h, l)) return support;
+    if (!h.allFinite() || !cholesky<Dim>(h, l)) return result;
     for (int i = 0; i < Dim; ++i)  // forward substitution, column by column
         for (int j = 0; j <= i; ++j) {
             double sum = i == j ? 1.0 : 0.0;
             for (int k = j; k < i; ++k) sum -= l(i, k) * inverse_l(k, j);
             inverse_l(i, j) = sum / l(i, i);
         }
-    const Matrix<Dim> inverse = inverse_l.transpose() * inverse_l;
-    // Inverse and |H r|² carry a relative error of a few units of roundoff times the condition
-    // number.
-    const double reach = norm_bound<Dim>(inverse), condition = reach * norm_bound<Dim>(h);
-    const double slack = 64 * std::numeric_limits<double>::epsilon() * condition;
+    result.positive_definite = true;
+    result.inverse = inverse_l.transpose() * inverse_l;
+    result.reach = norm_bound<Dim>(result.inverse);
+    const double condition = result.reach * norm_bound<Dim>(h);
+    result.slack = 64 * std::numeric_limits<double>::epsilon() * condition;
+    return result;
+}
+
+constexpr double largest_slack = 0.1;
+
+}  // namespace
+
+template <int Dim>
+TensorSupport<Dim> tensor_support(const double* packed) {
+    TensorSupport<Dim> support;
+    const Inverse<Dim> h = invert<Dim>(packed);
+    if (!h.positive_definite) return support;
     // A width that exceeds a limit by rounding only does not exceed it.
     for (int d = 0; d < Dim; ++d)
-        support.half_width[d] = h.isDiagonal(0.0)
-                                    ? 1 / h(d, d)
-                                    : inverse.col(d).stableNorm() * (1 - std::min(slack, 0.1));
+        support.half_width[d] =
+            h.tensor.isDiagonal(0.0)
+                ? 1 / h.tensor(d, d)
+                : h.inverse.col(d).stableNorm() * (1 - std::min(h.slack, largest_slack));
     support.positive_definite = true;
-    support.radius = slack < 0.1 ? reach * (1 + slack) : std::numeric_limits<double>::infinity();
+    support.radius =
+        h.slack < largest_slack ? h.reach * (1 + h.slack) : std::numeric_limits<double>::infinity();
     return support;
+}
+
+template <int Dim>
+bool widen_tensor(const double* packed, double extent, double skin, double* widened) {
+    const Eigen::SelfAdjointEigenSolver<Matrix<Dim>> solver(unpack<Dim>(packed));
+    const auto& eigenvalues = solver.eigenvalues();  // ascending
+    // Errors of the eigenvalues, of |H r| and of |W r| are at most this, relative to their axes.
+    const double slack =
+        64 * std::numeric_limits<double>::epsilon() * eigenvalues(Dim - 1) / eigenvalues(0);
+    const double largest = extent / eigenvalues(0), unit = std::max(largest, skin);
+    if (!(eigenvalues(0) > 0) || !(slack < largest_slack) || !std::isfinite(unit)) return false;
+    const Eigen::Array<double, Dim, 1> axes = extent / eigenvalues.array() / unit;
+    // p = trace / (q sqrt(Dim)); any p > 0 holds what must be held, also where a trace underflows.
+    const double q = skin / unit, trace = std::max(axes.matrix().norm(), 1e-100);
+    const double root = std::sqrt(static_cast<double>(Dim));
+    const Eigen::Array<double, Dim, 1> wide =
+        ((1 + q * root / trace) * axes.square() + q * (q + trace / root)).sqrt();
+    const Matrix<Dim> w = solver.eigenvectors() *
+                          (extent / unit / (wide * (1 + 3 * slack))).matrix().asDiagonal() *
+                          solver.eigenvectors().transpose();
+    for (int i = 0, k = 0; i < Dim; ++i)
+        for (int j = i; j < Dim; ++j, ++k) widened[k] = 0.5 * (w(i, j) + w(j, i));
+    return true;
+}
+
+template <int Dim>
+double tensor_growth(const double* before, const double* after) {
+    if (std::equal(before, before + n_symmetric(Dim), after)) return 0;
+    const Inverse<Dim> a = invert<Dim>(before), b = invert<Dim>(after);
+    if (!a.positive_definite || !b.positive_definite || !(a.slack < largest_slack) ||
+        !(b.slack < largest_slack))
+        return std::numeric_limits<double>::infinity();
+    const Matrix<Dim> difference = b.inverse - a.inverse;
+    const double norm = difference.isZero(0.0) ? 0.0 : norm_bound<Dim>(difference);
+    // Both inverses are rounded, and so is the test |H r| of the new tensor.
+    return norm + a.slack * a.reach + 2 * b.slack * b.reach;
 }
 
 template TensorSupport<1> tensor_support<1>(const double*);
 template TensorSupport<2> tensor_support<2>(const double*);
 template TensorSupport<3> tensor_support<3>(const double*);
+template bool widen_tensor<1>(const double*, double, double, double*);
+template bool widen_tensor<2>(const double*, double, double, double*);
+template bool widen_tensor<3>(const double*, double, double, double*);
+template double tensor_growth<1>(const double*, const double*);
+template double tensor_growth<2>(const double*, const double*);
+template double tensor_growth<3>(const double*, const double*);
 
 }  // namespace connectivity

@@ -34,6 +34,19 @@ struct MapOptions {
         false;      ///< keep spatial_order() available (free where the search sorts nodes anyway)
     Domain domain;  ///< open on all axes unless told
     Budget budget;
+    /// Length by which all supports are widened, so that the lists stay complete while nodes drift
+    /// and supports grow by no more than it: 0, or in [1e-100, 1e100]. Rows and pairs then hold
+    /// every neighbour and some nodes close to it; the host's kernel, or a test of the distance,
+    /// sorts these out. h = 0 reaches as far as the skin. The widened support, too, must fit half a
+    /// periodic box, and tensors must have a condition number below 7e12.
+    double skin = 0;
+};
+
+/// Whether a skin pays: over the life of a map.
+struct ReuseCounts {
+    std::int64_t rebuilds = 0;
+    std::int64_t reuses = 0;  ///< needs_rebuild said false
+    double max_drift = 0;     ///< of the states for which it did
 };
 
 class ConnectivityMap {
@@ -48,6 +61,21 @@ public:
     /// scatter), nonfinite / support / not_spd (list, node, value), box, half_box, too_many,
     /// budget, memory; the map is then as it was before.
     void rebuild(std::span<const NodeList> lists, const MapOptions& options);
+
+    /// How far `lists` are from those of the last rebuild: twice the largest displacement plus the
+    /// largest growth of a support radius (of tensors: the largest growth or shrinkage along any
+    /// direction). 0 if nothing changed. Infinite if that rebuild had no skin, if there was none,
+    /// if the number of lists, their sizes, internal nodes, extents or kind of support changed, or
+    /// if a value is bad. While drift <= skin no neighbour is missing from the lists. Domain and
+    /// modes are those of the last rebuild. Takes some 1 % of the time of a rebuild for scalar h.
+    double drift(std::span<const NodeList> lists) const;
+
+    /// Whether the lists may miss a neighbour: drift > skin; always without skin. Where it says
+    /// false, the host goes on with the lists it has; it is counted. Never throws for bad values:
+    /// the rebuild it asks for does.
+    bool needs_rebuild(std::span<const NodeList> lists);
+
+    const ReuseCounts& reuse() const { return reuse_; }
 
     Generation generation() const { return generation_; }  ///< 0 before the first rebuild
     const SlotLayout& layout() const { return layout_; }
@@ -76,6 +104,10 @@ public:
 private:
     template <int Dim>
     void rebuild_in(std::span<const NodeList> lists, const MapOptions& options);
+    void reserve_reference(std::span<const NodeList> lists, const MapOptions& options,
+                           Report& report);
+    void keep_reference(std::span<const NodeList> lists, Report& report);
+    void count_reuse(Report& report) const;
 
     struct Impl;
     std::unique_ptr<Impl> impl_;
@@ -89,6 +121,7 @@ private:
     NodePairList pairs_;
     ConstView<Slot> order_;
     Report report_;
+    ReuseCounts reuse_;
 };
 
 /// Reorders a host's field of n_components values a node: out[k] = in[order[k]]. `in` and `out`
