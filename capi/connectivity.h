@@ -204,11 +204,13 @@ typedef struct conn_map_options {
     int32_t reserved;      /**< 0 */
     double box_lo[3], box_hi[3];
     int64_t budget_bytes; /**< memory that a rebuild may take; 0: the context's budget */
+    double skin;          /**< length by which supports are widened, see conn_map_needs_rebuild;
+                               0: not at all, or in [1e-100, 1e100] */
 } conn_map_options;
 #define CONN_MAP_OPTIONS_INIT                                                             \
     {                                                                                     \
         sizeof(conn_map_options), 1, 1, 0, 0, CONN_GATHER_SCATTER, CONN_METHOD_AUTOMATIC, \
-            {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0                                         \
+            {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0, 0                                      \
     }
 
 /** Sets the defaults; size is sizeof *options. */
@@ -224,6 +226,18 @@ CONN_API conn_status conn_map_set_options(conn_map* map, const conn_map_options*
  * error the lists of the last rebuild stay as they are. CONN_E_BUDGET names the bytes needed and
  * allowed. */
 CONN_API conn_status conn_map_rebuild(conn_map* map, conn_nodes* const* lists, int32_t n_lists);
+/** Whether the lists of the last rebuild may miss a neighbour among these nodes, which may have
+ * moved and changed their supports since. *needed is 0 while the drift, twice the largest
+ * displacement plus the largest growth of a support radius, is at most the skin of that rebuild;
+ * the host then goes on with the lists it has. A rebuild with a skin widens all supports by it:
+ * rows and pairs hold every neighbour and some nodes close to it, which the kernel or a test of the
+ * distance sorts out. *needed is 1 without a rebuild or a skin, after other options were set, if
+ * the number of lists, their sizes, internal nodes, extents or kind of support changed, or if a
+ * value is bad, which the rebuild then names. *drift (drift may be NULL) is infinite where it
+ * cannot be told. The report counts rebuilds, reuses and, in millionths of the skin, the largest
+ * drift reused under. */
+CONN_API conn_status conn_map_needs_rebuild(conn_map* map, conn_nodes* const* lists,
+                                            int32_t n_lists, int32_t* needed, double* drift);
 /** Number of successful rebuilds: 0 before the first. */
 CONN_API conn_status conn_map_generation(const conn_map* map, uint64_t* generation);
 

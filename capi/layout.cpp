@@ -38,7 +38,7 @@ CONN_CHECK_OFFSET(conn_context_options, n_threads, 8);
 CONN_CHECK_OFFSET(conn_context_options, device_id, 12);
 CONN_CHECK_OFFSET(conn_context_options, budget_bytes, 16);
 
-static_assert(is_plain<conn_map_options> && sizeof(conn_map_options) == 104);
+static_assert(is_plain<conn_map_options> && sizeof(conn_map_options) == 112);
 CONN_CHECK_OFFSET(conn_map_options, struct_size, 0);
 CONN_CHECK_OFFSET(conn_map_options, rows, 8);
 CONN_CHECK_OFFSET(conn_map_options, pairs, 12);
@@ -51,6 +51,7 @@ CONN_CHECK_OFFSET(conn_map_options, reserved, 44);
 CONN_CHECK_OFFSET(conn_map_options, box_lo, 48);
 CONN_CHECK_OFFSET(conn_map_options, box_hi, 72);
 CONN_CHECK_OFFSET(conn_map_options, budget_bytes, 96);
+CONN_CHECK_OFFSET(conn_map_options, skin, 104);
 
 static_assert(is_plain<conn_map_info> && sizeof(conn_map_info) == 72);
 CONN_CHECK_OFFSET(conn_map_info, struct_size, 0);

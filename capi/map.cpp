@@ -60,6 +60,17 @@ MapOptions read_options(const conn_map_options* given) {
         throw Error(Status::argument,
                     "options->budget_bytes = " + std::to_string(o.budget_bytes) + ", must be >= 0");
     options.budget.bytes = o.budget_bytes;
+    if (o.skin != 0 && !(o.skin >= 1e-100 && o.skin <= 1e100))
+        throw Error(Status::argument, "options->skin = " + std::to_string(o.skin) +
+                                          ", must be 0 or in [1e-100, 1e100]");
+    options.skin = o.skin;
+    return options;
+}
+
+/// Those of the next rebuild.
+MapOptions options_of(const conn_map& map) {
+    MapOptions options = map.options;
+    if (options.budget.bytes == 0) options.budget.bytes = map.context_budget;
     return options;
 }
 
@@ -127,9 +138,21 @@ conn_status conn_map_rebuild(conn_map* map, conn_nodes* const* lists, int32_t n_
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_map>(map, "map");
         const std::vector<NodeList> nodes = read_lists(lists, n_lists);
-        MapOptions options = ours.options;
-        if (options.budget.bytes == 0) options.budget.bytes = ours.context_budget;
-        ours.map->rebuild(nodes, options);
+        ours.map->rebuild(nodes, options_of(ours));
+    });
+}
+
+conn_status conn_map_needs_rebuild(conn_map* map, conn_nodes* const* lists, int32_t n_lists,
+                                   int32_t* needed, double* drift) {
+    return guarded_with_runtime(__func__, [&] {
+        auto& ours = Registry::instance().get<conn_map>(map, "map");
+        if (needed == nullptr) throw Error(Status::null, "needed is NULL");
+        const std::vector<NodeList> nodes = read_lists(lists, n_lists);
+        const bool same_options = ours.map->options() == options_of(ours);
+        double now = 0;
+        *needed = !same_options || ours.map->needs_rebuild(nodes, &now) ? 1 : 0;
+        if (!same_options) now = ours.map->drift(nodes);
+        if (drift != nullptr) *drift = now;
     });
 }
 

@@ -173,8 +173,9 @@ double ConnectivityMap::drift(std::span<const NodeList> lists) const {
     return impl_->reference.drift(lists);
 }
 
-bool ConnectivityMap::needs_rebuild(std::span<const NodeList> lists) {
-    const double now = drift(lists);
+bool ConnectivityMap::needs_rebuild(std::span<const NodeList> lists, double* drift) {
+    const double now = this->drift(lists);
+    if (drift != nullptr) *drift = now;
     if (!(now <= options_.skin)) return true;
     ++reuse_.reuses;
     reuse_.max_drift = std::max(reuse_.max_drift, now);

@@ -185,6 +185,9 @@ TEST_F(CapiBadInput, options_outside_their_range_are_refused) {
     EXPECT_TRUE(
         fails(refused([](Options& o) { o.periodic[2] = 2; }), CONN_E_ARGUMENT, {"periodic[2]"}));
     EXPECT_TRUE(fails(refused([](Options& o) { o.budget_bytes = -1; }), CONN_E_ARGUMENT, {"-1"}));
+    for (const double skin : {-1.0, nan, infinity, -infinity, 1e101})
+        EXPECT_TRUE(fails(refused([skin](Options& o) { o.skin = skin; }), CONN_E_ARGUMENT,
+                          {"skin = ", "[1e-100, 1e100]"}));
     EXPECT_TRUE(
         fails(refused([](Options& o) { o.reserved = 1; }), CONN_E_UNSUPPORTED, {"reserved"}));
 }

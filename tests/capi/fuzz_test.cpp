@@ -35,7 +35,7 @@ public:
     int n_built = 0, n_views = 0;  ///< calls that got through
 
     void call() {
-        switch (random_.below(17)) {
+        switch (random_.below(18)) {
             case 0: return set_h();
             case 1: return set_tensor();
             case 2: return rebuild();
@@ -55,6 +55,7 @@ public:
             case 13: conn_status_text(static_cast<int>(random_.bits())); return;
             case 14: conn_abi_sizeof(static_cast<int>(random_.bits())); return;
             case 15: return init();
+            case 16: return needs_rebuild();
             default: return create_map();
         }
     }
@@ -150,11 +151,21 @@ private:
         if (n > 4 && n < 100000) n = 4;
         if (conn_map_rebuild(map(), random_.chance(0.95) ? some : nullptr, n) == CONN_OK) ++n_built;
     }
+    void needs_rebuild() {
+        conn_nodes* const some[4] = {nodes(), nodes(), nodes(), nodes()};
+        std::int32_t n = random_.chance(0.5) ? 1 : number(), needed = 0;
+        if (n > 4 && n < 100000) n = 4;
+        double drift = 0;
+        conn_map_needs_rebuild(map(), random_.chance(0.95) ? some : nullptr, n,
+                               random_.chance(0.95) ? &needed : nullptr,
+                               random_.chance(0.8) ? &drift : nullptr);
+    }
     void set_options() {
         with_struct<conn_map_options>([&](auto* s) {
             if (s != nullptr && random_.chance(0.7)) {
                 const std::size_t size = s->struct_size;
                 *s = CONN_MAP_OPTIONS_INIT;
+                s->skin = random_.pick({0.0, 0.0, 1e-3, 1e100});
                 s->struct_size = size;
                 if (random_.chance(0.5)) spoil(&s->rows, sizeof *s - sizeof size);
             }

@@ -26,6 +26,8 @@ struct Domain {
     /// Length of axis d, 0 where it is open.
     double length(int d) const { return periodic[d] ? hi[d] - lo[d] : 0.0; }
 
+    friend bool operator==(const Domain&, const Domain&) = default;
+
     /// Throws Error{box} if a periodic axis is inverted, empty or not finite.
     void check(int dim) const;
 };

@@ -16,6 +16,8 @@ struct Budget {
     /// build starts.
     Offset bytes = 0;
 
+    friend bool operator==(const Budget&, const Budget&) = default;
+
     /// The number in force now.
     Offset allowed() const;
 

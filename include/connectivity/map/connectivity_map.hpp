@@ -40,6 +40,8 @@ struct MapOptions {
     /// sorts these out. h = 0 reaches as far as the skin. The widened support, too, must fit half a
     /// periodic box, and tensors must have a condition number below 7e12.
     double skin = 0;
+
+    friend bool operator==(const MapOptions&, const MapOptions&) = default;
 };
 
 /// Whether a skin pays: over the life of a map.
@@ -72,8 +74,8 @@ public:
 
     /// Whether the lists may miss a neighbour: drift > skin; always without skin. Where it says
     /// false, the host goes on with the lists it has; it is counted. Never throws for bad values:
-    /// the rebuild it asks for does.
-    bool needs_rebuild(std::span<const NodeList> lists);
+    /// the rebuild it asks for does. `drift`, if given, receives the drift.
+    bool needs_rebuild(std::span<const NodeList> lists, double* drift = nullptr);
 
     const ReuseCounts& reuse() const { return reuse_; }
 
