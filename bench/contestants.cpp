@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contestants.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <connectivity/base/runtime.hpp>
@@ -13,31 +14,83 @@
 namespace connectivity::bench {
 namespace {
 
+SearchMethod method_of(const std::string& variant) {
+    for (const SearchMethod method :
+         {SearchMethod::brute, SearchMethod::cells, SearchMethod::groups})
+        if (variant == name_of(method)) return method;
+    if (!variant.empty() && variant != "3lists" && variant != "tensor")
+        throw std::invalid_argument("no variant named " + variant);
+    return SearchMethod::automatic;
+}
+
 class Ours final : public Contestant {
 public:
-    Ours(const test::Workload& w, Form form) {
-        const auto view = [](const std::vector<double>& v) {
-            return ConstView<double>(v.data(), v.size());
-        };
-        lists_.push_back(NodeList::with_h(w.name, w.dim, w.n, view(w.x), view(w.R), 1.0));
+    Ours(const Input& input, Form form, const std::string& variant) {
         options_.rows = form != Form::pairs;
         options_.pairs = form != Form::rows;
+        options_.method = method_of(variant);
+        const std::vector<double>& H = variant == "tensor" ? input.H : input.cloud.H;
+        for (int state = 0; state <= input.n_moved(); ++state)
+            states_.push_back(lists_of(input, state, variant == "3lists" ? 3 : 1, H));
     }
 
-    void build() override { map_.rebuild(lists_, options_); }
+    void place(int state) override { state_ = static_cast<std::size_t>(state); }
+    void build() override { map_.rebuild(states_[state_], options_); }
     Offset n_row_entries() const override { return options_.rows ? map_.rows().size() : 0; }
     Offset n_pairs() const override { return options_.pairs ? map_.pairs().size() : 0; }
+
     Offset result_bytes() const override {
-        const auto bytes = [this](bool built, Offset n_values) {
-            return built ? n_values * Offset{sizeof(Slot)} +
-                               (map_.layout().n_slots() + 1) * Offset{sizeof(Offset)}
-                         : 0;
+        const auto bytes = [](const auto& offsets, Offset n_values) {
+            return n_values * Offset{sizeof(Slot)} +
+                   static_cast<Offset>(offsets.size() * sizeof(Offset));
         };
-        return bytes(options_.rows, n_row_entries()) + bytes(options_.pairs, n_pairs());
+        return (options_.rows ? bytes(map_.rows().offsets, n_row_entries()) : 0) +
+               (options_.pairs ? bytes(map_.pairs().view().offsets, n_pairs()) : 0);
     }
 
+    bool agrees(Offset node, const std::vector<Offset>& neighbours) const override {
+        const auto later = std::upper_bound(neighbours.begin(), neighbours.end(), node);
+        bool same = true;
+        if (options_.rows) {
+            const auto row = map_.rows()[node];
+            same = std::equal(row.begin(), row.end(), neighbours.begin(), neighbours.end());
+        }
+        if (options_.pairs) {
+            const auto pairs = map_.pairs().view();
+            same =
+                same && std::equal(pairs.data() + pairs.offsets(node),
+                                   pairs.data() + pairs.offsets(node + 1), later, neighbours.end());
+        }
+        return same;
+    }
+
+    double check_ms() const override { return map_.report().find("nodes")->ms; }
+
 private:
-    std::vector<NodeList> lists_;
+    /// The nodes come shuffled: equal parts in the order given are a random deal, and keep each
+    /// node's slot.
+    static std::vector<NodeList> lists_of(const Input& input, int state, int n_lists,
+                                          const std::vector<double>& H) {
+        const Cloud& c = input.cloud;
+        const auto view = [](const double* values, Offset first, Offset n, Offset per_node) {
+            return ConstView<double>(values + first * per_node,
+                                     static_cast<std::size_t>(n * per_node));
+        };
+        std::vector<NodeList> lists;
+        for (int k = 0; k < n_lists; ++k) {
+            const Offset first = c.n * k / n_lists, n = c.n * (k + 1) / n_lists - first;
+            const std::string name = c.name + std::to_string(k);
+            const auto x = view(input.x(state), first, n, c.dim);
+            lists.push_back(
+                H.empty() ? NodeList::with_h(name, c.dim, n, x, view(c.R.data(), first, n, 1), 1)
+                          : NodeList::with_H(name, c.dim, n, x,
+                                             view(H.data(), first, n, n_symmetric(c.dim)), 1));
+        }
+        return lists;
+    }
+
+    std::vector<std::vector<NodeList>> states_;
+    std::size_t state_ = 0;
     MapOptions options_;
     ConnectivityMap map_;
 };
@@ -51,6 +104,16 @@ Form form_of(const std::string& name) {
     throw std::invalid_argument("no form named " + name);
 }
 
+Input make_input(const std::string& cloud, bool tensor) {
+    constexpr int n_moved = 4;
+    Input input;
+    input.cloud = make_cloud(cloud);
+    for (int k = 1; input.cloud.moves && k <= n_moved; ++k)
+        input.moved.push_back(displaced(input.cloud, k));
+    if (tensor) input.H = stretched(input.cloud);
+    return input;
+}
+
 std::vector<std::string> contestants() {
 #if defined(CONNECTIVITY_BENCH_NANOFLANN)
     return {"ours", "nanoflann"};
@@ -59,12 +122,16 @@ std::vector<std::string> contestants() {
 #endif
 }
 
-std::unique_ptr<Contestant> make_contestant(const std::string& who, const test::Workload& workload,
-                                            Form form) {
+bool nanoflann_takes_part(const std::string& workload, const std::string& form) {
+    return form != "both" && workload != "A8";
+}
+
+std::unique_ptr<Contestant> make_contestant(const std::string& who, const std::string& variant,
+                                            const Input& input, Form form) {
     start_runtime();
-    if (who == "ours") return std::make_unique<Ours>(workload, form);
+    if (who == "ours") return std::make_unique<Ours>(input, form, variant);
 #if defined(CONNECTIVITY_BENCH_NANOFLANN)
-    if (who == "nanoflann") return make_nanoflann(workload, form);
+    if (who == "nanoflann") return make_nanoflann(input, form);
 #endif
     throw std::invalid_argument("no contestant named " + who);
 }

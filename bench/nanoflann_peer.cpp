@@ -80,12 +80,15 @@ struct Found {
 template <int Dim>
 class Nanoflann final : public Contestant {
 public:
-    Nanoflann(const test::Workload& w, Form form) : w_(w), rows_(form == Form::rows) {
-        order_.resize(static_cast<std::size_t>(w.n));
+    Nanoflann(const Input& input, Form form)
+        : input_(input), w_(input.cloud), x_(input.x(0)), rows_(form == Form::rows) {
+        order_.resize(static_cast<std::size_t>(w_.n));
         std::iota(order_.begin(), order_.end(), Slot{0});
         found_.resize(order_.size());
         buffers_.resize(static_cast<std::size_t>(n_workers()));
     }
+
+    void place(int state) override { x_ = input_.x(state); }
 
     void build() override {
         sort_points();
@@ -117,7 +120,7 @@ private:
         points_.x.resize(w_.x.size());
         for_each_dynamic("bench/nanoflann/sort", (w_.n + chunk - 1) / chunk, [&](int, Offset c) {
             for (Offset k = c * chunk; k < std::min(w_.n, (c + 1) * chunk); ++k)
-                std::copy_n(&w_.x[static_cast<std::size_t>(label(k)) * Dim], Dim,
+                std::copy_n(x_ + label(k) * Offset{Dim}, Dim,
                             &points_.x[static_cast<std::size_t>(k) * Dim]);
         });
     }
@@ -222,7 +225,9 @@ private:
             });
     }
 
+    const Input& input_;
     const test::Workload& w_;
+    const double* x_;
     bool rows_;
     Points<Dim> points_;
     std::vector<Slot> order_;  ///< caller's number of each sorted point
@@ -235,10 +240,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Contestant> make_nanoflann(const test::Workload& workload, Form form) {
+std::unique_ptr<Contestant> make_nanoflann(const Input& input, Form form) {
     if (form == Form::both) throw std::invalid_argument("nanoflann builds rows or pairs, not both");
-    if (workload.dim == 2) return std::make_unique<Nanoflann<2>>(workload, form);
-    return std::make_unique<Nanoflann<3>>(workload, form);
+    if (input.cloud.dim == 2) return std::make_unique<Nanoflann<2>>(input, form);
+    return std::make_unique<Nanoflann<3>>(input, form);
 }
 
 }  // namespace connectivity::bench

@@ -13,6 +13,6 @@
 namespace connectivity::bench {
 
 /// Form::both is not offered. Throws std::invalid_argument.
-std::unique_ptr<Contestant> make_nanoflann(const test::Workload& workload, Form form);
+std::unique_ptr<Contestant> make_nanoflann(const Input& input, Form form);
 
 }  // namespace connectivity::bench

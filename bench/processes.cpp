@@ -2,10 +2,10 @@
 #include "processes.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
-#include <regex>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -16,12 +16,14 @@
 
 #include <support/process.hpp>
 
-#include "contestants.hpp"
+#include "yardstick.hpp"
 
 namespace connectivity::bench {
 namespace {
 
-constexpr const char* group_variable = "CONNECTIVITY_BENCH_GROUP";
+using nlohmann::json;
+
+constexpr const char* job_variable = "CONNECTIVITY_BENCH_JOB";
 
 /// Arguments that concern all groups together.
 struct Arguments {
@@ -39,33 +41,23 @@ Arguments parse(int argc, char** argv) {
             if (mine) value = argument.substr(name.size() + 3);
             return mine;
         };
-        std::string listing;
+        std::string listing, out_format;  // the record is always JSON
         if (argument == "--benchmark_list_tests" || take("benchmark_list_tests", listing))
             a.list = listing != "false";
-        else if (take("benchmark_filter", a.filter))
-            a.passed_on.push_back(argument);
-        else if (!take("benchmark_out", a.out) && !take("benchmark_format", a.format))
+        else if (!take("benchmark_filter", a.filter) && !take("benchmark_out", a.out) &&
+                 !take("benchmark_out_format", out_format) && !take("benchmark_format", a.format))
             a.passed_on.push_back(argument);
     }
     if (a.filter.empty() || a.filter == "all") a.filter = ".";
     return a;
 }
 
-std::vector<CaseName> selected_cases(const std::string& filter) {
-    const bool inverted = filter[0] == '-';
-    const std::regex pattern(inverted ? filter.substr(1) : filter, std::regex::extended);
-    std::vector<CaseName> cases = all_cases();
-    std::erase_if(
-        cases, [&](const CaseName& c) { return std::regex_search(c.name(), pattern) == inverted; });
-    return cases;
-}
-
-/// Runs this program for one group; its record goes to `record`.
-int run_group(const CaseName& c, const Arguments& a, const std::string& record) {
-    setenv(group_variable, c.group().c_str(), 1);
-    setenv("OMP_NUM_THREADS", c.threads.c_str(), 1);
-    setenv("OMP_PROC_BIND", "false",
-           0);  // unless the user wants something else; also silences Kokkos
+/// Runs this program for one group; its record goes to a file.
+int run_group(const json& job, const std::string& threads, const Arguments& a,
+              const std::string& record) {
+    setenv(job_variable, job.dump().c_str(), 1);
+    setenv("OMP_NUM_THREADS", threads.c_str(), 1);
+    setenv("OMP_PROC_BIND", "false", 0);  // unless the user wants it; also silences Kokkos
     const std::string program = test::program_path();
     std::vector<std::string> words = {program, "--benchmark_out=" + record,
                                       "--benchmark_out_format=json"};
@@ -86,28 +78,84 @@ int run_group(const CaseName& c, const Arguments& a, const std::string& record) 
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
-/// Adds a group's record to the joint one.
-void join(nlohmann::json& all, const std::string& record) {
-    std::ifstream file(record);
-    const nlohmann::json one = nlohmann::json::parse(file, nullptr, false);
-    if (one.is_discarded()) return;
-    if (all.empty()) all = {{"context", one["context"]}, {"benchmarks", nlohmann::json::array()}};
-    for (const auto& benchmark : one["benchmarks"]) all["benchmarks"].push_back(benchmark);
-}
+/// Pairs of a cloud in all its states, counted once in a run of the benchmark.
+class Counts {
+public:
+    const json& of(const std::string& cloud, bool tensor) {
+        json& counts = known_[cloud][tensor ? "tensor" : "ball"];
+        if (!counts.is_null()) return counts;
+        setenv(job_variable, json{{"count", cloud}, {"tensor", tensor}}.dump().c_str(), 1);
+        unsetenv("OMP_NUM_THREADS");
+        setenv("OMP_PROC_BIND", "false", 0);
+        const test::RunResult run = test::run_command("'" + test::program_path() + "'");
+        counts = json::parse(run.out, nullptr, false);
+        if (run.status != 0 || !counts.is_array()) {
+            std::cerr << "error: the pairs of " << cloud << " could not be counted\n";
+            counts = json::array();
+        }
+        return counts;
+    }
+
+private:
+    json known_ = json::object();
+};
+
+/// Runs cases of one group and collects what is measured.
+class Groups {
+public:
+    explicit Groups(const Arguments& a) : a_(a) {}
+
+    void run(const std::vector<CaseName>& cases) {
+        const CaseName* yardstick = nullptr;
+        json job = {{"cases", json::array()}};
+        bool ball = false, tensor = false;
+        for (const CaseName& c : cases) {
+            if (c.who == "yardstick")
+                yardstick = &c;
+            else
+                job["cases"].push_back(c.name());
+            (c.variant == "tensor" ? tensor : ball) = true;
+        }
+        if (ball) job["n_pairs"]["ball"] = counts_.of(cases[0].cloud(), false);
+        if (tensor) job["n_pairs"]["tensor"] = counts_.of(cases[0].cloud(), true);
+        if (yardstick != nullptr) measure(*yardstick, job);
+        if (job["cases"].empty()) return;
+        status_ = std::max(status_, run_group(job, cases[0].threads, a_, record_));
+        join();
+        if (yardstick != nullptr) measure(*yardstick, job);
+    }
+
+    int status() const { return status_; }
+    json record() const { return {{"context", context_}, {"benchmarks", runs_}}; }
+
+private:
+    void measure(const CaseName& yardstick, const json& job) {
+        const json& counts = job["n_pairs"]["ball"];
+        const json run = run_yardstick(yardstick, counts.empty() ? -1 : counts[0].get<Offset>());
+        if (run.is_null())
+            status_ = 1;
+        else
+            runs_.push_back(run);
+    }
+
+    void join() {
+        std::ifstream file(record_);
+        const json one = json::parse(file, nullptr, false);
+        std::remove(record_.c_str());
+        if (one.is_discarded()) return;
+        if (context_.is_null()) context_ = one["context"];
+        for (const auto& run : one["benchmarks"]) runs_.push_back(run);
+    }
+
+    const Arguments& a_;
+    Counts counts_;
+    std::string record_ = (std::getenv("TMPDIR") != nullptr ? std::getenv("TMPDIR") : "/tmp") +
+                          ("/connectivity-rebuild-" + std::to_string(getpid()) + ".json");
+    json context_, runs_ = json::array();
+    int status_ = 0;
+};
 
 }  // namespace
-
-std::vector<CaseName> all_cases() {
-    std::vector<CaseName> cases;
-    for (const std::string extra : {"", "first"})
-        for (const std::string workload : test::all_workloads)
-            for (const std::string form : {"rows", "pairs", "both"})
-                for (const std::string threads : {"1", "2"})
-                    for (const std::string& who : contestants())
-                        if (form != "both" || who == "ours")
-                            cases.push_back({who, workload, form, threads, extra});
-    return cases;
-}
 
 int run_groups(int argc, char** argv) {
     const Arguments a = parse(argc, argv);
@@ -116,26 +164,34 @@ int run_groups(int argc, char** argv) {
         for (const CaseName& c : cases) std::cout << c.name() << '\n';
         return 0;
     }
-    if (cases.empty())
+    if (cases.empty()) {
         std::cerr << "no case matches " << a.filter << "; --benchmark_list_tests shows all\n";
-    const std::string record = (std::getenv("TMPDIR") != nullptr ? std::getenv("TMPDIR") : "/tmp") +
-                               ("/connectivity-rebuild-" + std::to_string(getpid()) + ".json");
-    nlohmann::json all;
-    int status = cases.empty() ? 1 : 0;
-    for (std::size_t k = 0; k < cases.size(); ++k) {
-        if (k > 0 && cases[k].group() == cases[k - 1].group()) continue;
-        status = std::max(status, run_group(cases[k], a, record));
-        join(all, record);
-        std::remove(record.c_str());
+        return 1;
     }
-    if (!a.out.empty()) std::ofstream(a.out) << all.dump(2) << '\n';
-    if (a.format == "json") std::cout << all.dump(2) << '\n';
-    return status;
+    Groups groups(a);
+    for (auto first = cases.begin(); first != cases.end();) {
+        const auto last = std::find_if(
+            first, cases.end(), [&](const CaseName& c) { return c.group() != first->group(); });
+        groups.run({first, last});
+        first = last;
+    }
+    if (!a.out.empty()) std::ofstream(a.out) << groups.record().dump(2) << '\n';
+    if (a.format == "json") std::cout << groups.record().dump(2) << '\n';
+    return groups.status();
 }
 
-std::string group_of_this_process() {
-    const char* const group = std::getenv(group_variable);
-    return group != nullptr ? group : "";
+std::optional<Job> job_of_this_process() {
+    const char* const text = std::getenv(job_variable);
+    if (text == nullptr) return std::nullopt;
+    const json described = json::parse(text);
+    Job job;
+    job.count = described.value("count", "");
+    job.tensor = described.value("tensor", false);
+    const auto names = described.value("cases", std::vector<std::string>());
+    for (const CaseName& c : all_cases())
+        if (std::find(names.begin(), names.end(), c.name()) != names.end()) job.cases.push_back(c);
+    job.n_pairs = described.value("n_pairs", job.n_pairs);
+    return job;
 }
 
 }  // namespace connectivity::bench

@@ -31,11 +31,9 @@ std::string program_path() {
     return length > 0 ? std::string(path.data(), static_cast<std::size_t>(length)) : std::string();
 }
 
-RunResult run_this_test_program(const std::string& gtest_filter, const std::string& environment) {
-    const std::string command =
-        "env " + environment + " '" + program_path() + "' --gtest_filter='" + gtest_filter + "'";
+RunResult run_command(const std::string& shell_command) {
     RunResult result;
-    FILE* pipe = popen(command.c_str(), "r");
+    FILE* pipe = popen(shell_command.c_str(), "r");
     if (pipe == nullptr) return result;
     std::array<char, 4096> buffer{};
     while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
@@ -43,6 +41,11 @@ RunResult run_this_test_program(const std::string& gtest_filter, const std::stri
     const int status = pclose(pipe);
     if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
     return result;
+}
+
+RunResult run_this_test_program(const std::string& gtest_filter, const std::string& environment) {
+    return run_command("env " + environment + " '" + program_path() + "' --gtest_filter='" +
+                       gtest_filter + "'");
 }
 
 }  // namespace connectivity::test

@@ -27,6 +27,8 @@ struct RunResult {
     std::string out;  ///< standard output
 };
 
+RunResult run_command(const std::string& shell_command);
+
 /// Runs one test of this executable with additional environment, "NAME=value NAME=value".
 RunResult run_this_test_program(const std::string& gtest_filter, const std::string& environment);
 
