@@ -158,6 +158,7 @@ private:
 };
 
 /// The farthest point of a path at which the map still says that its lists are good, or -1.
+template <class Path>
 double last_good(ConnectivityMap& map, const Path& path) {
     const auto good = [&](double t) {
         const Case c = path.at(t);
@@ -165,7 +166,7 @@ double last_good(ConnectivityMap& map, const Path& path) {
     };
     if (good(1)) return 1;
     double lo = 0, hi = 1;
-    for (int k = 0; k < 20; ++k) (good(0.5 * (lo + hi)) ? lo : hi) = 0.5 * (lo + hi);
+    for (int k = 0; k < 56; ++k) (good(0.5 * (lo + hi)) ? lo : hi) = 0.5 * (lo + hi);
     return lo > 0 ? lo : -1;
 }
 
@@ -270,6 +271,74 @@ TEST_F(TwoNodes, that_cross_the_boundary_have_hardly_moved) {
     EXPECT_TRUE(is_reused(before, after));
     after.lists[0].x[1] += 2;  // the open axis
     EXPECT_FALSE(is_reused(before, after));
+}
+
+/// Two nodes a hair off support and skin, which then approach and grow by all they may, a few
+/// boxes or millions of boxes away where an axis is periodic.
+class Hair {
+public:
+    explicit Hair(std::uint64_t seed) : random_(seed) {
+        const int dim = 1 + random_.below(3);
+        const double K = 2.7, h = random_.log_uniform(0.01, 0.1);
+        double length = 0;
+        for (int d = 0; d < dim; ++d) length = std::hypot(length, way_[d] = random_.uniform(-1, 1));
+        skin_ = random_.log_uniform(1e-4, 0.05);
+        // Around the limit, by a few roundings of the numbers that matter.
+        const double r = (K * h + skin_) * (1 + random_.pick({-1.0, -1.0, 0.0, 1.0}) *
+                                                    random_.log_uniform(1e-17, 1e-11));
+        start_ = uniform_case(dim, std::vector<double>(static_cast<std::size_t>(2 * dim)), h, K);
+        start_.domain.periodic.fill(random_.chance(0.6));
+        start_.domain.hi = {1.1, 1.3, 1.7};
+        for (int d = 0; d < dim; ++d) {
+            way_[d] /= length;
+            x(start_, 0, d) = random_.uniform();
+            x(start_, 1, d) = x(start_, 0, d) + r * way_[d];
+            if (start_.domain.periodic[0] && random_.chance(0.5))
+                for (const int node : {0, 1})
+                    leap_[node][d] =
+                        start_.domain.length(d) * random_.below(random_.pick({2, 1000, 1000000}));
+        }
+        moves_ = random_.pick({0.0, 0.5, random_.uniform(0, 0.5)});
+    }
+
+    const Case& start() const { return start_; }
+    double skin() const { return skin_; }
+
+    Case at(double t) const {
+        Case c = start_;
+        for (int d = 0; d < c.dim; ++d)
+            for (const int node : {0, 1})
+                x(c, node, d) +=
+                    leap_[node][d] + (node == 0 ? 1 : -1) * t * moves_ * skin_ * 1.001 * way_[d];
+        c.lists[0].h[0] += t * (1 - 2 * moves_) * skin_ * 1.001 / c.kernel_extent();
+        return c;
+    }
+
+private:
+    static double& x(Case& c, int node, int d) {
+        return c.lists[0].x[static_cast<std::size_t>(node * c.dim + d)];
+    }
+
+    Random random_;
+    Case start_;
+    double way_[3] = {}, leap_[2][3] = {}, skin_ = 0, moves_ = 0;
+};
+
+TEST(Skin, is_not_lost_by_rounding) {
+    ConnectivityMap map;
+    int n_outside = 0, n_inside = 0;
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+        const Hair hair(seed);
+        build(map, hair.start(), hair.skin(), SearchMethod::brute);
+        const double t = last_good(map, hair);
+        if (t < 0) continue;
+        const Case now = hair.at(t);
+        n_outside += map.pairs().size() == 0;
+        n_inside += !brute_force(now).pair_j.empty();
+        ASSERT_EQ(missing(map, now), 0) << seed << ", skin " << hair.skin() << ", t " << t;
+    }
+    EXPECT_GT(n_outside, 300);
+    EXPECT_GT(n_inside, 100);
 }
 
 TEST(Skin, the_lists_hold_nothing_beyond_support_and_skin) {
