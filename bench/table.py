@@ -1,67 +1,79 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Turns records of build/bench/rebuild into a Markdown table: medians, their spread, and the ratio to the peer.
+"""Turns records of build/bench/rebuild into Markdown tables: medians with their spread beside peers and floor, and
+what lists, tensors, threads and a first build cost.
 
     build/bench/rebuild --benchmark_out=record.json
     python3 bench/table.py record.json [more.json ...]
 """
 
-import json
-import statistics
 import sys
-from collections import defaultdict
+
+from record import read
 
 
-def read(paths):
-    """Contexts of the records, and for every case (workload, form, threads, extra) the runs of each contestant."""
-    contexts, cases = [], defaultdict(lambda: defaultdict(list))
-    for path in paths:
-        with open(path, encoding="utf-8") as file:
-            record = json.load(file)
-        contexts.append(record["context"])
-        for run in record["benchmarks"]:
-            if run.get("run_type") != "iteration" or run.get("error_occurred"):
-                continue
-            who, *case = run["name"].split("/")
-            cases[tuple(case)][who].append(run)
-    return contexts, cases
+def row(cells):
+    return "| " + " | ".join(cells) + " |"
 
 
-def median(runs, key):
-    return statistics.median(run[key] for run in runs)
+def number(value, form=".4g"):
+    return "-" if value is None else format(value, form)
 
 
-def milliseconds(runs):
-    """Median of the builds' own clocks, with the fastest and the slowest repetition."""
-    unit = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
-    times = sorted(run["real_time"] * unit[run["time_unit"]] for run in runs)
-    return statistics.median(times), times[0], times[-1]
+def our_cells(runs):
+    times, floor = runs.times(), runs.get("floor_ms")
+    entries = runs.get("entries_per_s")
+    return [f"{runs.ms():.4g} ({times[0]:.4g}-{times[-1]:.4g})", number(runs.get("ns_per_node"), ".0f"),
+            number(entries and entries / 1e6, ".0f"), number(runs.get("bytes_per_pair"), ".2f"),
+            number(runs.get("peak_MiB"), ".0f"),
+            number((runs.get("peak_MiB") or 0) * 1048576 / (runs.get("bytes_returned") or 1), ".2f"),
+            number(floor), number(floor and runs.ms() / floor, ".1f")]
 
 
-def table(cases, us="ours"):
-    peers = sorted({who for runs in cases.values() for who in runs} - {us})
-    head = ["case", f"{us} ms", "ns/node", "M entries/s", "B/pair", "peak MiB"]
+def peer_cells(runs, ours):
+    return ["-"] * 3 if runs is None else [f"{runs.ms():.4g}", number(runs.get("peak_MiB"), ".0f"),
+                                           f"{runs.ms() / ours.ms():.2f}"]
+
+
+def main_table(cases):
+    peers = sorted({case.who for case in cases} - {"ours"})
+    head = ["case", "ours ms", "ns/node", "M entries/s", "B/pair", "peak MiB", "peak / returned", "floor ms", "x floor"]
     for peer in peers:
-        head += [f"{peer} ms", "M entries/s", "B/pair", "peak MiB", f"{peer} / {us}"]
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+        head += [f"{peer} ms", "peak MiB", f"{peer} / ours"]
+    lines = [row(head), "|" + "---|" * len(head)]
     for case, runs in cases.items():
-        cells = ["/".join(case)]
-        for who in [us] + peers:
-            if who not in runs:
-                cells += ["-"] * 5
-                continue
-            middle, least, most = milliseconds(runs[who])
-            cells.append(f"{middle:.4g} ({least:.4g}-{most:.4g})")
-            if who == us:
-                cells.append(f"{median(runs[who], 'ns_per_node'):.0f}")
-            cells.append(f"{median(runs[who], 'entries_per_s') / 1e6:.0f}")
-            cells.append(f"{median(runs[who], 'bytes_per_pair'):.2f}")
-            cells.append(f"{median(runs[who], 'peak_MiB'):.0f}")
-            if who != us:
-                ours = milliseconds(runs[us])[0] if us in runs else float("nan")
-                cells.append(f"{middle / ours:.2f}")
-        lines.append("| " + " | ".join(cells) + " |")
+        if case.who == "ours":
+            cells = [case.label()] + our_cells(runs)
+            for peer in peers:
+                cells += peer_cells(cases.get(case._replace(who=peer, variant="")) if not case.variant else None, runs)
+            lines.append(row(cells))
     return lines
+
+
+def ratio_table(cases):
+    """One line per workload and form where there is something to compare."""
+    lines = [row(["case", "3 lists / 1", "tensor / ball", "1 thread / 2", "GB/s returned / stores", "first - steady ms",
+                  "page faults ms"]), "|" + "---|" * 7]
+    for case, runs in cases.items():
+        if case.who != "ours" or case.variant or case.first:
+            continue
+
+        def over(other, upside_down=False):
+            if other not in cases:
+                return None
+            ratio = cases[other].ms() / runs.ms()
+            return 1 / ratio if upside_down else ratio
+
+        first = cases.get(case._replace(first=True))
+        returned = runs.get("bytes_returned")
+        speed = returned / runs.ms() / 1e6 / runs.get("store_GBps")
+        cells = [over(case._replace(variant="3lists")), over(case._replace(variant="tensor")),
+                 over(case._replace(threads=1)) if case.threads == 2 else None, speed,
+                 first and first.ms() - runs.ms(),
+                 first and returned / first.get("touch_large_GBps") / 1e6]
+        if any(cell is not None for cell in cells[:3] + cells[4:]):
+            lines.append(row([case.label()] + [number(cell, ".3g") for cell in cells]))
+    return lines if len(lines) > 2 else []
 
 
 def main():
@@ -72,9 +84,15 @@ def main():
         print(f"{context['date'][:16]}, {context['num_cpus']} x {context.get('cpu', '?')}, "
               f"load {context['load_avg'][0]:.1f} at the start; {context.get('compiler', '?')}; "
               f"{context.get('connectivity', '')}.")
-    print("Median (fastest-slowest) of the repetitions. Cases: workload/form/threads[/first]; a ratio above 1 means "
-          "that the peer takes longer.\n")
-    print("\n".join(table(cases)))
+    print("Median (fastest-slowest) of the repetitions. Cases: workload/form/threads[/extra]; a ratio above 1 means that "
+          "the peer takes longer. Every build sees points displaced by 0.05 of their support; a yardstick's do not move. "
+          "Peak: memory the first build added. Floor: 5 ms per million nodes and the bytes returned at the speed of "
+          "streaming stores in the same process.\n")
+    print("\n".join(main_table(cases)))
+    ratios = ratio_table(cases)
+    if ratios:
+        print("\nPage faults: the bytes returned at the speed of first stores into large pages.\n")
+        print("\n".join(ratios))
 
 
 if __name__ == "__main__":
