@@ -22,8 +22,8 @@ public:
     void run(Products products) {
         count();
         products.prepare(
-            {request_.rows, request_.half_rows, row_counts_.data(), half_counts_.data()}, layout_,
-            request_.budget);
+            {request_.rows, request_.half_rows, {row_counts_.data(), 1}, {half_counts_.data(), 1}},
+            layout_, request_.budget);
         if (request_.rows) fill_rows(products.rows);
         if (request_.half_rows) fill_halves(products.halves);
     }

@@ -179,6 +179,7 @@ void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame)
                 static_cast<float>((data[d * leaf_size + k] - frame.centre[d]) * frame.scale);
         test.t[at] = static_cast<float>(data[Dim * leaf_size + k] * frame.t_scale());
         own[at] = slot[k];
+        sweep_->store.prefetch(slot[k]);
         wanted[at] = sweep_->store.wanted(slot[k]);
     }
     const int words = n_words(leaf_.list.n);

@@ -75,13 +75,14 @@ void GroupSearch<Dim>::sweep(const GroupSweep<Dim>& shared, Offset stride) {
         }
     });
     first.rethrow();
+    store_.end_sweep();
 }
 
 /// Entries that the arenas would hold, from a sixty-fourth of the blocks.
 template <int Dim>
 Offset GroupSearch<Dim>::estimate_entries(const GroupSweep<Dim>& shared) {
     constexpr Offset stride = 64;
-    store_.begin_sweep(0);
+    store_.begin_sweep(0, 0);
     sweep(shared, stride);
     Offset entries = 0, sampled = 0;
     for (Offset b = 0; b < order_.n_blocks(); b += stride)
@@ -123,18 +124,17 @@ void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout
         (entries_before_ >= 0 ? entries_before_ : estimate_entries(shared)) * Offset{sizeof(Slot)};
     const bool surely_fits = expected < slack / 4 || request.budget.allows(4 * expected);
     try {
-        store_.begin_sweep(surely_fits ? 2 * expected + slack : 0);
+        store_.begin_sweep(surely_fits ? 2 * expected + slack : 0, expected);
         sweep(shared, 1);
-        products.prepare(store_.counts(), layout, request.budget);
+        const Offset result = products.prepare(store_.counts(), layout, request.budget);
         if (!store_.only_counted()) return;
         const Offset free = Budget().allowed();
-        store_.begin_sweep(free);
+        store_.begin_sweep(free, result);
         sweep(shared, 1);
         if (store_.only_counted())
             throw Error(Status::budget, "the search needs more than " + human_bytes(free) +
                                             " while it runs, the memory that is free, beside the " +
-                                            human_bytes(products.prepared_bytes()) +
-                                            " of its result");
+                                            human_bytes(result) + " of its result");
     } catch (...) {
         store_.release();
         throw;

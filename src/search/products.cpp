@@ -40,7 +40,7 @@ void throw_over_budget(const Counts& counts, const SlotLayout& layout, Offset ne
                                     std::to_string(most));
 }
 
-void Products::prepare(const Counts& counts, const SlotLayout& layout, const Budget& budget) {
+Offset Products::prepare(const Counts& counts, const SlotLayout& layout, const Budget& budget) {
     Offset needed = 0;
     if (counts.has_rows)
         needed += rows.prepare(layout.n_rows() * layout.n_lists(),
@@ -50,6 +50,7 @@ void Products::prepare(const Counts& counts, const SlotLayout& layout, const Bud
     if (!budget.allows(needed)) throw_over_budget(counts, layout, needed, budget.allowed());
     if (counts.has_rows) rows.reserve();
     if (counts.has_halves) halves.reserve();
+    return needed;
 }
 
 }  // namespace connectivity::detail

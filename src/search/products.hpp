@@ -15,9 +15,14 @@ namespace connectivity::detail {
 /// What a search counted: entries by row and target list, and partners after each slot.
 struct Counts {
     bool has_rows,
-        has_halves;      ///< what was asked for; of zero nodes even a null pointer tells all counts
-    const Slot* rows;    ///< [n_rows * n_lists]
-    const Slot* halves;  ///< [n_slots]
+        has_halves;  ///< what was asked for; of zero nodes even a null pointer tells all counts
+    struct Numbers {
+        const Slot* first;
+        int stride;
+        Offset operator[](Offset k) const { return first[k * stride]; }
+    };
+    Numbers rows;    ///< [n_rows * n_lists]
+    Numbers halves;  ///< [n_slots]
 };
 
 /// The two lists that a search fills.
@@ -25,14 +30,9 @@ struct Products {
     Csr& rows;
     Csr& halves;
 
-    /// Offsets, budget check, storage. Throws Error{budget | memory}; the lists are as before.
-    void prepare(const Counts& counts, const SlotLayout& layout, const Budget& budget);
-
-    /// Bytes of the values prepared.
-    Offset prepared_bytes() const {
-        return (rows.prepared_values() + halves.prepared_values()) *
-               static_cast<Offset>(sizeof(Slot));
-    }
+    /// Offsets, budget check, storage; returns the bytes that the lists take. Throws
+    /// Error{budget | memory}; the lists are as before.
+    Offset prepare(const Counts& counts, const SlotLayout& layout, const Budget& budget);
 };
 
 /// Throws Error{budget}: bytes needed and allowed, number of entries, and the node with most

@@ -20,17 +20,21 @@ void RowStore::begin(const SlotLayout& layout, bool rows, bool halves, BitKernel
     if (workers_.size() < static_cast<std::size_t>(n_workers()))
         workers_ = std::vector<Worker>(n_workers());
     ensure_capacity(row_, "search/groups/row", layout.n_slots());
-    ensure_capacity(length_, "search/groups/length", layout.n_slots());
-    ensure_capacity(later_, "search/groups/later", layout.n_slots());
     if (rows && layout.n_lists() > 1)
         ensure_capacity(by_list_, "search/groups/by_list", layout.n_rows() * layout.n_lists());
 }
 
-void RowStore::begin_sweep(Offset arena_bytes) {
+void RowStore::begin_sweep(Offset arena_bytes, Offset expected_bytes) {
+    constexpr Offset cached = Offset{8} << 20;
     arena_bytes_ = arena_bytes;
     only_counts_ = arena_bytes == 0;
     used_ = 0;
-    for (Worker& worker : workers_) worker.arena.reset();
+    past_caches_ = expected_bytes > cached;
+    for (Worker& worker : workers_) worker.arena.reset(past_caches_);
+}
+
+void RowStore::end_sweep() {
+    for (Worker& worker : workers_) worker.arena.flush();
 }
 
 RowStore::Wanted RowStore::wanted(Slot slot) const {
@@ -91,66 +95,62 @@ void RowStore::store(int worker_number, const FoundRow& found) {
                             found.label + first * word_size, out);
     if (row < 0) n = keep_stored(out, n);
     if (whole) count_lists(row, out, n);
-    if (out != worker.row.data()) worker.arena.end_row(n);
-    record(found.slot, out, n, n - before);
+    const Slot* const place = out != worker.row.data() ? worker.arena.end_row(n) : nullptr;
+    record(found.slot, place, n, n - before);
 }
 
 void RowStore::record(Slot slot, const Slot* first, int n, int later) {
-    row_(slot) = {first};
-    length_(slot) = n;
-    later_(slot) = later;
+    row_(slot) = {first, n, later};
 }
 
 Counts RowStore::counts() const {
-    const bool several = layout_->n_lists() > 1;
-    return {rows_, halves_, several ? by_list_.data() : length_.data(), later_.data()};
+    constexpr int stride = sizeof(ArenaRow) / sizeof(Slot);
+    if (row_.size() == 0) return {rows_, halves_, {nullptr, 1}, {nullptr, 1}};
+    const ArenaRow* const first = row_.data();
+    Counts counts{rows_, halves_, {&first->length, stride}, {&first->later, stride}};
+    if (layout_->n_lists() > 1) counts.rows = {by_list_.data(), 1};
+    return counts;
 }
 
-/// Copies the ends of arena rows, in slot order, into consecutive values.
-template <class SlotOf, class LengthOf>
-void copy_rows(const View<ArenaRow>& rows, const View<Slot>& lengths, Offset first, Offset last,
-               Slot* to, const SlotOf& slot_of, const LengthOf& length_of) {
-    constexpr Offset ahead = 24;  // rows lie anywhere in the arenas: ask for them early
-    StreamWriter out(to);
-    for (Offset r = first; r < last; ++r) {
-        if (r + ahead < last) {
-            const Offset next = slot_of(r + ahead);
-            const Slot* const begin = rows(next).first;
-            const Slot n = std::min<Slot>(lengths(next), 512);
-            for (Slot k = 0; k < n + 16; k += 16) __builtin_prefetch(begin + k);
+/// Asks for a row early: rows lie anywhere in the arenas.
+void prefetch_row(const ArenaRow& row) {
+    const Slot n = std::min<Slot>(row.length, 512);
+    for (Slot k = 0; k < n + slots_per_line; k += slots_per_line) __builtin_prefetch(row.first + k);
+}
+
+/// Copies the rows of slots [first, last) into both lists; rows of consecutive slots lie side by
+/// side there.
+void RowStore::transfer_slots(Offset first, Offset last, const Products& products) const {
+    constexpr Offset ahead = 24;
+    StreamWriter rows(past_caches_), halves(past_caches_);
+    if (halves_)
+        halves.start(products.halves.prepared_values() + products.halves.prepared_offsets()[first]);
+    for (Offset slot = first; slot < last; ++slot) {
+        if (slot + ahead < last) prefetch_row(row_(slot + ahead));
+        const ArenaRow& found = row_(slot);
+        const Offset row = rows_ ? layout_->row_of_slot(slot) : -1;
+        if (row >= 0) {
+            if (!rows.started())
+                rows.start(products.rows.prepared_values() +
+                           products.rows.prepared_offsets()[row * layout_->n_lists()]);
+            rows.append(found.first, found.length);
         }
-        const Offset slot = slot_of(r), n = length_of(slot);
-        if (n > 0) out.append(rows(slot).first + lengths(slot) - n, n);
+        if (halves_) halves.append(found.first + found.length - found.later, found.later);
     }
-    out.finish();
-}
-
-void RowStore::fill_rows(Csr& rows) const {
-    const Offset n_lists = layout_->n_lists();
-    rows.commit(
-        [this, n_lists](Offset first, Offset last, const Offset* offsets, Slot* values) {
-            copy_rows(
-                row_, length_, first / n_lists, last / n_lists, values + offsets[first],
-                [this](Offset row) { return layout_->slot_of_row(row); },
-                [this](Offset slot) { return static_cast<Offset>(length_(slot)); });
-        },
-        256 * n_lists);
-}
-
-void RowStore::fill_halves(Csr& halves) const {
-    halves.commit(
-        [this](Offset first, Offset last, const Offset* offsets, Slot* values) {
-            copy_rows(
-                row_, length_, first, last, values + offsets[first],
-                [](Offset slot) { return slot; },
-                [this](Offset slot) { return static_cast<Offset>(later_(slot)); });
-        },
-        256);
+    rows.finish();
+    halves.finish();
 }
 
 void RowStore::transfer(Products products) const {
-    if (rows_) fill_rows(products.rows);
-    if (halves_) fill_halves(products.halves);
+    constexpr Offset slots_per_chunk = 512;
+    const Offset n = layout_->n_slots();
+    for_each_dynamic("search/groups/transfer", (n + slots_per_chunk - 1) / slots_per_chunk,
+                     [&](int, Offset chunk) {
+                         transfer_slots(chunk * slots_per_chunk,
+                                        std::min((chunk + 1) * slots_per_chunk, n), products);
+                     });
+    if (rows_) products.rows.publish();
+    if (halves_) products.halves.publish();
 }
 
 void RowStore::release() {
@@ -159,8 +159,7 @@ void RowStore::release() {
 
 Offset RowStore::bytes() const {
     Offset sum =
-        static_cast<Offset>(row_.size() * sizeof(ArenaRow) +
-                            (length_.size() + later_.size() + by_list_.size()) * sizeof(Slot));
+        static_cast<Offset>(row_.size() * sizeof(ArenaRow) + by_list_.size() * sizeof(Slot));
     for (const Worker& worker : workers_) sum += worker.arena.bytes();
     return sum;
 }

@@ -28,9 +28,11 @@ struct FoundRow {
                 ///< later entries are wanted
 };
 
-/// Where a row lies in an arena.
+/// Where a row lies in an arena, and what it holds.
 struct ArenaRow {
-    const Slot* first;
+    const Slot* first;  ///< nowhere while counting
+    Slot length;        ///< entries
+    Slot later;         ///< how many of them, at the end, belong to the half row
 };
 
 /// What a row store does with bits; see Kernels<Dim>.
@@ -49,9 +51,16 @@ public:
 
     /// Starts a sweep that keeps at most `arena_bytes` of rows in arenas and only counts the
     /// others; 0: counts all.
-    void begin_sweep(Offset arena_bytes);
+    void begin_sweep(Offset arena_bytes, Offset expected_bytes);
+
+    /// Ends the sweep: every row lies in its place. Cannot fail.
+    void end_sweep();
 
     Wanted wanted(Slot slot) const;
+
+    /// Asks early for the place where a slot's record will be written: records are visited at
+    /// random, and a store that waits for its line holds up all that follow.
+    void prefetch(Slot slot) const { __builtin_prefetch(row_.data() + slot, 1); }
 
     /// Called by worker `worker`. Throws Error{memory}.
     void store(int worker, const FoundRow& row);
@@ -66,7 +75,7 @@ public:
     void transfer(Products products) const;
 
     /// Entries counted for a slot, whatever was wanted.
-    Offset entries(Slot slot) const { return length_(slot); }
+    Offset entries(Slot slot) const { return row_(slot).length; }
 
     /// Gives the arenas back.
     void release();
@@ -82,20 +91,17 @@ private:
     void record(Slot slot, const Slot* first, int n, int later);
     int keep_stored(Slot* row, int n) const;
     void count_lists(Offset row, const Slot* slots, Offset n);
-    void fill_rows(Csr& rows) const;
-    void fill_halves(Csr& halves) const;
+    void transfer_slots(Offset first, Offset last, const Products& products) const;
 
     const SlotLayout* layout_ = nullptr;
-    bool rows_ = false, halves_ = false;
+    bool rows_ = false, halves_ = false, past_caches_ = false;
     Offset arena_bytes_ = 0;
     Slot last_stored_ = -1;
     BitKernels kernels_{};
     std::atomic<bool> only_counts_{false};
     std::atomic<Offset> used_{0};
     std::vector<Worker> workers_;
-    View<ArenaRow> row_;  // [n_slots]; nowhere while counting
-    View<Slot> length_;   // [n_slots]: entries there
-    View<Slot> later_;    // [n_slots]: how many of them, at the end, belong to the half row
+    View<ArenaRow> row_;  // [n_slots]
     View<Slot> by_list_;  // [n_rows * n_lists], only for several lists
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// A sequential writer of slots that passes the caches: whole lines go straight to memory.
+/// Writing slots past the caches: whole lines go straight to memory.
 ///
 /// A list is larger than any cache and read later; plain stores would first read every line they
-/// overwrite. The destination is filled from low to high; `finish` writes what is left.
+/// overwrite.
 
 #include <cstdint>
 #include <cstring>
@@ -16,11 +16,37 @@
 
 namespace connectivity::detail {
 
+constexpr Offset slots_per_line = 16;
+
+/// Copies n slots; the whole lines of `to` pass the caches.
+inline void stream_copy(Slot* to, const Slot* from, Offset n) {
+    Offset k = 0;
+#if defined(__SSE2__)
+    while (k < n && reinterpret_cast<std::uintptr_t>(to + k) % 64 != 0) to[k] = from[k], ++k;
+    for (; k + slots_per_line <= n; k += slots_per_line)
+        for (Offset part = k; part < k + slots_per_line; part += 4)
+            _mm_stream_si128(reinterpret_cast<__m128i*>(to + part),
+                             _mm_loadu_si128(reinterpret_cast<const __m128i*>(from + part)));
+#endif
+    if (k < n) std::memcpy(to + k, from + k, static_cast<std::size_t>(n - k) * sizeof(Slot));
+}
+
+/// Makes what was streamed visible to other threads before anything stored later.
+inline void finish_streams() {
+#if defined(__SSE2__)
+    _mm_sfence();
+#endif
+}
+
+/// A sequential writer; the destination is filled from low to high, `finish` writes what is left.
 class StreamWriter {
 public:
-    explicit StreamWriter(Slot* to) : to_(to) {}
+    explicit StreamWriter(bool past_caches) : past_caches_(past_caches) {}
     StreamWriter(const StreamWriter&) = delete;
     StreamWriter& operator=(const StreamWriter&) = delete;
+
+    void start(Slot* to) { to_ = to; }
+    bool started() const { return to_ != nullptr; }
 
     void append(const Slot* from, Offset n) {
         while (n > 0) {
@@ -33,31 +59,24 @@ public:
 
     void finish() {
         flush();
-#if defined(__SSE2__)
-        _mm_sfence();
-#endif
+        finish_streams();
     }
 
 private:
-    static constexpr Offset line = 16, capacity = 256 * line;
+    static constexpr Offset capacity = 64 * slots_per_line;
 
     void flush() {
         if (filled_ == 0) return;  // without values there is no place to write to
-        Offset k = 0;
-#if defined(__SSE2__)
-        while (k < filled_ && reinterpret_cast<std::uintptr_t>(to_ + k) % 64 != 0)
-            to_[k] = buffer_[k], ++k;
-        for (; k + line <= filled_; k += line)
-            for (Offset part = k; part < k + line; part += 4)
-                _mm_stream_si128(reinterpret_cast<__m128i*>(to_ + part),
-                                 _mm_loadu_si128(reinterpret_cast<const __m128i*>(buffer_ + part)));
-#endif
-        std::memcpy(to_ + k, buffer_ + k, static_cast<std::size_t>(filled_ - k) * sizeof(Slot));
+        if (past_caches_)
+            stream_copy(to_, buffer_, filled_);
+        else
+            std::memcpy(to_, buffer_, static_cast<std::size_t>(filled_) * sizeof(Slot));
         to_ += filled_;
         filled_ = 0;
     }
 
-    Slot* to_;
+    Slot* to_ = nullptr;
+    const bool past_caches_;
     Offset filled_ = 0;
     alignas(64) Slot buffer_[capacity];
 };

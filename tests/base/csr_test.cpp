@@ -94,7 +94,7 @@ TEST_F(CsrBuilder, nothing_visible_changes_before_commit) {
     build(csr_, {1, 2, 3});
     csr_.prepare(5, [](Offset) { return 40; });
     csr_.reserve();
-    EXPECT_EQ(csr_.prepared_values(), 200);
+    EXPECT_EQ(csr_.n_prepared(), 200);
     EXPECT_EQ(csr_.prepared_offsets()[5], 200);
     EXPECT_EQ(rows_of(csr_.offsets(), csr_.values()), wanted({1, 2, 3}));
     csr_.prepare(2, [](Offset) { return 1; });  // given up and begun anew
@@ -107,7 +107,7 @@ TEST_F(CsrBuilder, counts_beyond_32_bits_are_exact_and_cost_nothing) {
     build(csr_, {2, 2});
     const Offset big = Offset{1} << 31;
     const Offset bytes = csr_.prepare(5, [=](Offset i) { return big + i; });
-    EXPECT_EQ(csr_.prepared_values(), 5 * big + 10);
+    EXPECT_EQ(csr_.n_prepared(), 5 * big + 10);
     EXPECT_EQ(bytes, (5 * big + 10) * 4 + 6 * 8);
     EXPECT_EQ(rows_of(csr_.offsets(), csr_.values()), wanted({2, 2}));
 }

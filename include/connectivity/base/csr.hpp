@@ -45,9 +45,13 @@ public:
     template <class Fill>
     void commit(const Fill& fill, Offset rows_per_chunk = 64);
 
-    /// Offsets counted by `prepare` and not yet committed: [n_rows + 1].
-    const Offset* prepared_offsets() const { return spare_.data(); }
-    Offset prepared_values() const { return pending_values_; }
+    /// The third step in other hands: what was prepared, to be filled before `publish`.
+    const Offset* prepared_offsets() const { return spare_.data(); }  ///< [n_rows + 1]
+    Slot* prepared_values() const { return grown_.size() > 0 ? grown_.data() : values_.data(); }
+    Offset n_prepared() const { return pending_values_; }  ///< values
+
+    /// Makes the prepared rows the list. Cannot fail.
+    void publish();
 
     /// Empties the list and gives its memory back (views held elsewhere keep theirs).
     void clear();
@@ -57,7 +61,6 @@ private:
         return {std::size_t{0}, static_cast<std::size_t>(n)};
     }
     void take_spare(Offset n_rows);
-    void publish();
 
     std::string label_;
     View<Offset> offsets_, spare_;
@@ -92,7 +95,7 @@ template <class Fill>
 void Csr::commit(const Fill& fill, Offset rows_per_chunk) {
     const Offset n = pending_rows_, chunks = (n + rows_per_chunk - 1) / rows_per_chunk;
     const Offset* const offsets = spare_.data();
-    Slot* const values = grown_.size() > 0 ? grown_.data() : values_.data();
+    Slot* const values = prepared_values();
     Kokkos::parallel_for(
         label_ + "/fill",
         Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>, Kokkos::Schedule<Kokkos::Dynamic>>(
