@@ -38,24 +38,30 @@ bool cholesky(const Matrix<Dim>& a, Matrix<Dim>& l) {
     return true;
 }
 
-/// Largest eigenvalue of a symmetric positive matrix from above: exact for diagonal ones, at
-/// most 1.15 times for others.
+template <int Dim>
+double largest_row_sum(const Matrix<Dim>& a) {
+    return a.cwiseAbs().rowwise().sum().maxCoeff();
+}
+
+/// Largest |eigenvalue| of a symmetric matrix that is not 0, from above: exact for diagonal ones,
+/// at most 1.15 times for others.
 template <int Dim>
 double norm_bound(const Matrix<Dim>& a) {
-    const double row_sum = a.cwiseAbs().rowwise().sum().maxCoeff();
+    const double row_sum = largest_row_sum<Dim>(a);
     const Matrix<Dim> unit = a / row_sum, square = unit * unit;
     return row_sum * std::min(1.0, std::sqrt(std::sqrt((square * square).norm())));
 }
 
-/// The inverse of a packed tensor and how far it is from the exact one.
 template <int Dim>
 struct Inverse {
     bool positive_definite = false;
     Matrix<Dim> tensor, inverse;
-    double reach = 0;  ///< largest eigenvalue of the inverse, from above
+
     /// Relative error of the inverse and of |H r|: a few units of roundoff times the condition
-    /// number.
-    double slack = 0;
+    /// number. `reach` is the largest eigenvalue of the inverse, from above.
+    double slack(double reach) const {
+        return 64 * std::numeric_limits<double>::epsilon() * reach * largest_row_sum<Dim>(tensor);
+    }
 };
 
 template <int Dim>
@@ -72,9 +78,6 @@ Inverse<Dim> invert(const double* packed) {
         }
     result.positive_definite = true;
     result.inverse = inverse_l.transpose() * inverse_l;
-    result.reach = norm_bound<Dim>(result.inverse);
-    const double condition = result.reach * norm_bound<Dim>(h);
-    result.slack = 64 * std::numeric_limits<double>::epsilon() * condition;
     return result;
 }
 
@@ -87,15 +90,15 @@ TensorSupport<Dim> tensor_support(const double* packed) {
     TensorSupport<Dim> support;
     const Inverse<Dim> h = invert<Dim>(packed);
     if (!h.positive_definite) return support;
+    const double reach = norm_bound<Dim>(h.inverse), slack = h.slack(reach);
     // A width that exceeds a limit by rounding only does not exceed it.
     for (int d = 0; d < Dim; ++d)
-        support.half_width[d] =
-            h.tensor.isDiagonal(0.0)
-                ? 1 / h.tensor(d, d)
-                : h.inverse.col(d).stableNorm() * (1 - std::min(h.slack, largest_slack));
+        support.half_width[d] = h.tensor.isDiagonal(0.0) ? 1 / h.tensor(d, d)
+                                                         : h.inverse.col(d).stableNorm() *
+                                                               (1 - std::min(slack, largest_slack));
     support.positive_definite = true;
     support.radius =
-        h.slack < largest_slack ? h.reach * (1 + h.slack) : std::numeric_limits<double>::infinity();
+        slack < largest_slack ? reach * (1 + slack) : std::numeric_limits<double>::infinity();
     return support;
 }
 
@@ -126,13 +129,22 @@ template <int Dim>
 double tensor_growth(const double* before, const double* after) {
     if (std::equal(before, before + n_symmetric(Dim), after)) return 0;
     const Inverse<Dim> a = invert<Dim>(before), b = invert<Dim>(after);
-    if (!a.positive_definite || !b.positive_definite || !(a.slack < largest_slack) ||
-        !(b.slack < largest_slack))
+    if (!a.positive_definite || !b.positive_definite)
         return std::numeric_limits<double>::infinity();
+    // Both inverses are rounded, and so is the test |H r| of the new tensor.
+    const double a_reach = largest_row_sum<Dim>(a.inverse);
+    const double b_reach = largest_row_sum<Dim>(b.inverse);
+    const double a_slack = a.slack(a_reach), b_slack = b.slack(b_reach);
+    if (!(std::max(a_slack, b_slack) < largest_slack))
+        return std::numeric_limits<double>::infinity();
+    // The new ellipsoid is inside if its inverse squared is below the old one as a quadratic form.
+    const double reach = std::max(a_reach, b_reach);
+    Matrix<Dim> l, room = a.inverse * a.inverse - b.inverse * b.inverse;
+    room.diagonal().array() -= 4 * (a_slack + b_slack) * reach * reach;
+    if (cholesky<Dim>(room, l)) return 0;
     const Matrix<Dim> difference = b.inverse - a.inverse;
     const double norm = difference.isZero(0.0) ? 0.0 : norm_bound<Dim>(difference);
-    // Both inverses are rounded, and so is the test |H r| of the new tensor.
-    return norm + a.slack * a.reach + 2 * b.slack * b.reach;
+    return norm + a_slack * a_reach + 2 * b_slack * b_reach;
 }
 
 template TensorSupport<1> tensor_support<1>(const double*);

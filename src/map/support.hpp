@@ -47,8 +47,9 @@ template <int Dim>
 bool widen_tensor(const double* packed, double extent, double skin, double* widened);
 
 /// How much farther than |before r| <= 1 the ellipsoid |after r| <= 1 reaches, in any direction:
-/// never too small, 0 for equal tensors, infinite if `after` is no legal tensor. It is the norm of
-/// the difference of the inverses, so a support that shrinks counts like one that grows.
+/// never too small, 0 for equal tensors and for an ellipsoid inside the old one, infinite if
+/// `after` is no legal tensor. Else it is the norm of the difference of the inverses, to which the
+/// directions that shrink add, too.
 template <int Dim>
 double tensor_growth(const double* before, const double* after);
 

@@ -163,6 +163,20 @@ TEST(TensorGrowth, is_never_less_than_along_any_direction) {
     EXPECT_GT(worst, 0.99) << "the bound is never near the truth";
 }
 
+TEST(TensorGrowth, of_an_ellipsoid_that_shrinks_is_zero) {
+    Random random(3);
+    for (int k = 0; k < 300; ++k) {
+        Ellipsoid e(random, 3, random.pick({1.0, 2.0, 100.0}));
+        double before[6], after[6];
+        e.pack(3, before);
+        const double shrink = random.log_uniform(1e-6, 0.5);
+        for (double& half : e.half) half *= 1 - shrink * random.uniform(0.5, 1);
+        e.pack(3, after);
+        ASSERT_EQ(tensor_growth<3>(before, after), 0);
+        ASSERT_GT(tensor_growth<3>(after, before), 0);
+    }
+}
+
 TEST(TensorGrowth, of_what_is_no_tensor_is_infinite) {
     const double good[3] = {1, 0, 1}, flat[3] = {1, 1, 1}, nan[3] = {std::nan(""), 0, 1};
     EXPECT_EQ(tensor_growth<2>(good, flat), HUGE_VAL);

@@ -65,11 +65,12 @@ public:
     void rebuild(std::span<const NodeList> lists, const MapOptions& options);
 
     /// How far `lists` are from those of the last rebuild: twice the largest displacement plus the
-    /// largest growth of a support radius (of tensors: the largest growth or shrinkage along any
-    /// direction). 0 if nothing changed. Infinite if that rebuild had no skin, if there was none,
-    /// if the number of lists, their sizes, internal nodes, extents or kind of support changed, or
-    /// if a value is bad. While drift <= skin no neighbour is missing from the lists. Domain and
-    /// modes are those of the last rebuild. Takes some 1 % of the time of a rebuild for scalar h.
+    /// largest growth of a support radius (of an ellipsoid that left the old one: the largest
+    /// growth or shrinkage along any direction). 0 if nothing changed. Infinite if that rebuild had
+    /// no skin, if there was none, if the number of lists, their sizes, internal nodes, extents or
+    /// kind of support changed, or if a value is bad. While drift <= skin no neighbour is missing
+    /// from the lists. Domain and modes are those of the last rebuild. Takes some 1 % of the time
+    /// of a rebuild for scalar h.
     double drift(std::span<const NodeList> lists) const;
 
     /// Whether the lists may miss a neighbour: drift > skin; always without skin. Where it says
