@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Measures, and makes the table and the charts:  sh bench/run.sh [--quick|--tiny] [options]
 #   --quick          sizes up to 1e5, rows and pairs, 2 threads: some minutes; the default takes
-#                    an hour or two and 20 GB
+#                    one to three hours and 12 GB
 #   --tiny           sizes up to 1e3, one repetition: seconds, shows only that it works
 #   --program FILE   the benchmark [build/bench/rebuild]
 #   --python FILE    [python3]
@@ -14,7 +14,7 @@ set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 program=$here/../build/bench/rebuild out=$here/../build/bench/report python=python3
 any='^[a-z]+'
-standard="$any/W[1-7]/(rows|pairs|both)/[12](/(first|3lists|tensor))?\$"
+standard="$any/W[1-7]/(rows|pairs|both)/[12](/(3lists|tensor))?\$|^(ours|yardstick)/W[1-7]/[a-z]+/[12]/first"
 sizes='^ours/W[1-7]/(rows|pairs)/2/[134]e[3-6]$'
 hard="$any/A[0-9a-z]+/rows/2|^ours/W[1-7]/rows/2/1e4"
 small="$any/W1/rows/[12]/(1|10|100|1e3|1e4)(-(brute|groups))?\$"

@@ -35,7 +35,7 @@ nlohmann::json run_yardstick(const CaseName& c, std::int64_t n_pairs) {
                   << " pairs instead of " << n_pairs << '\n';
         return nullptr;
     }
-    std::cout << c.name() << "  " << ms << " ms\n";
+    std::cout << c.name() << "  " << ms << " ms" << std::endl;
     return {
         {"name", c.name()},
         {"run_name", c.name()},
