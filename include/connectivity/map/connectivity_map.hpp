@@ -60,8 +60,8 @@ public:
 
     /// Finds all neighbours anew. `lists` (at least one, all of one dimension) are read during the
     /// call only. Throws Error: argument (no list, dimensions differ, pairs with gather or
-    /// scatter), nonfinite / support / not_spd (list, node, value), box, half_box, too_many,
-    /// budget, memory; the map is then as it was before.
+    /// scatter, skin out of range), nonfinite / support / not_spd (list, node, value), box,
+    /// half_box, too_many, budget, memory; the map is then as it was before.
     void rebuild(std::span<const NodeList> lists, const MapOptions& options);
 
     /// How far `lists` are from those of the last rebuild: twice the largest displacement plus the
@@ -69,7 +69,7 @@ public:
     /// growth or shrinkage along any direction). 0 if nothing changed. Infinite if that rebuild had
     /// no skin, if there was none, if the number of lists, their sizes, internal nodes, extents or
     /// kind of support changed, or if a value is bad. While drift <= skin no neighbour is missing
-    /// from the lists. Domain and modes are those of the last rebuild. Takes some 1 % of the time
+    /// from the lists. Domain and modes are those of the last rebuild. Takes 1 to 2 % of the time
     /// of a rebuild for scalar h.
     double drift(std::span<const NodeList> lists) const;
 
