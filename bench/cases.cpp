@@ -12,6 +12,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+bool is_step(const std::string& variant) { return variant == "step" || variant == "reordered"; }
+
 /// Adds a group for both numbers of threads: all contestants, then variants of ours.
 void add(std::vector<CaseName>& cases, CaseName c, const Names& forms, const Names& variants) {
     Names whos = contestants();
@@ -28,7 +30,7 @@ void add(std::vector<CaseName>& cases, CaseName c, const Names& forms, const Nam
             c.who = "ours";
             for (const std::string& variant : variants) {
                 c.variant = variant;
-                cases.push_back(c);
+                if (form == "pairs" || !is_step(variant)) cases.push_back(c);
             }
         }
 }
@@ -49,7 +51,7 @@ void add_sizes(std::vector<CaseName>& cases, const std::string& workload) {
         if (size == "1e3" || size == "1e4") {
             variants = methods;
             if (workload == "W1" || workload == "W3")
-                variants.insert(variants.end(), {"3lists", "tensor"});
+                variants.insert(variants.end(), {"3lists", "tensor", "step", "reordered"});
         }
         add(cases, named(workload, size), all_forms, variants);
     }
@@ -77,7 +79,8 @@ std::vector<CaseName> all_cases() {
     std::vector<CaseName> cases;
     for (const std::string workload : test::all_workloads)
         add(cases, named(workload), all_forms,
-            workload == "W1" || workload == "W3" ? Names{"3lists", "tensor"} : Names{});
+            workload == "W1" || workload == "W3" ? Names{"3lists", "tensor", "step", "reordered"}
+                                                 : Names{"step", "reordered"});
     for (const std::string workload : test::all_workloads)
         add(cases, named(workload, "", true), all_forms, {});
     for (const std::string workload : test::all_workloads) add_sizes(cases, workload);

@@ -4,9 +4,10 @@
 ///
 /// <who>/<workload>/<form>/<threads>[/<extra>]: steady state at the standard size unless the extra
 /// part says something else, words joined by "-": a size (1e4), `first` (build), and a variant of
-/// ours: `3lists` (nodes dealt to three lists), `tensor` (ellipsoids of axis ratio 2), or a search
-/// method instead of the automatic choice. Cases that differ by who and variant only are a group,
-/// measured in turns in one process.
+/// ours: `3lists` (nodes dealt to three lists), `tensor` (ellipsoids of axis ratio 2), a search
+/// method instead of the automatic choice, or a host's whole step, rebuild and one loop over the
+/// pairs, with nodes as they come (`step`) or in spatial order (`reordered`). Cases that differ by
+/// who and variant only are a group, measured in turns in one process.
 
 #include <string>
 #include <vector>

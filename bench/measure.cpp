@@ -195,6 +195,7 @@ int measure(const Job& job) {
     const Input input = make_input(job.cases.at(0).cloud(), tensor);
     const MemorySpeed speed = measure_memory_speed();
     std::vector<Entry> entries;
+    entries.reserve(job.cases.size());
     for (const CaseName& name : job.cases)
         entries.push_back({name, form_of(name.form), nullptr, 0, 0, 0, 0});
     if (!check(entries, input, job)) return 1;

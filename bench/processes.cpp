@@ -63,6 +63,7 @@ int run_group(const json& job, const std::string& threads, const Arguments& a,
                                       "--benchmark_out_format=json"};
     words.insert(words.end(), a.passed_on.begin(), a.passed_on.end());
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
 

@@ -6,7 +6,7 @@ import statistics
 from collections import namedtuple
 
 MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
-VARIANTS = ("3lists", "tensor", "brute", "cells", "groups")
+VARIANTS = ("3lists", "tensor", "brute", "cells", "groups", "step", "reordered")
 
 
 class Case(namedtuple("Case", "who workload form threads size first variant")):

@@ -52,26 +52,25 @@ def main_table(cases):
 
 def ratio_table(cases):
     """One line per workload and form where there is something to compare."""
-    lines = [row(["case", "3 lists / 1", "tensor / ball", "1 thread / 2", "GB/s returned / stores", "first - steady ms",
-                  "page faults ms"]), "|" + "---|" * 7]
+    lines = [row(["case", "3 lists / 1", "tensor / ball", "1 thread / 2", "step / build", "reordered step / step", "GB/s returned / stores", "first - steady ms",
+                  "page faults ms"]), "|" + "---|" * 9]
     for case, runs in cases.items():
         if case.who != "ours" or case.variant or case.first:
             continue
 
-        def over(other, upside_down=False):
-            if other not in cases:
-                return None
-            ratio = cases[other].ms() / runs.ms()
-            return 1 / ratio if upside_down else ratio
+        def over(other):
+            return cases[other].ms() / runs.ms() if other in cases else None
 
+        step, reordered = case._replace(variant="step"), over(case._replace(variant="reordered"))
         first = cases.get(case._replace(first=True))
         returned = runs.get("bytes_returned")
         speed = returned / runs.ms() / 1e6 / runs.get("store_GBps")
         cells = [over(case._replace(variant="3lists")), over(case._replace(variant="tensor")),
-                 over(case._replace(threads=1)) if case.threads == 2 else None, speed,
+                 over(case._replace(threads=1)) if case.threads == 2 else None, over(step),
+                 reordered and step in cases and reordered / over(step) or None, speed,
                  first and first.ms() - runs.ms(),
                  first and returned / first.get("touch_large_GBps") / 1e6]
-        if any(cell is not None for cell in cells[:3] + cells[4:]):
+        if any(cell is not None for cell in cells[:5] + cells[6:]):
             lines.append(row([case.label()] + [number(cell, ".3g") for cell in cells]))
     return lines if len(lines) > 2 else []
 
