@@ -225,6 +225,7 @@ int run_job(const Job& job, int argc, char** argv) {
         "--benchmark_enable_random_interleaving=true", "--benchmark_display_aggregates_only=true"};
     words.insert(words.end(), argv + 1, argv + argc);  // the user's words come last and win
     std::vector<char*> arguments;
+    arguments.reserve(words.size());
     for (std::string& word : words) arguments.push_back(word.data());
     int n_arguments = static_cast<int>(arguments.size());
     benchmark::Initialize(&n_arguments, arguments.data());
