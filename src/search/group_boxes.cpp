@@ -15,7 +15,7 @@ void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrde
     const bool fetch = (leaf + 5) * leaf_size <= static_cast<Offset>(order.slot.size());
     double* const data = data_.data() + leaf * leaf_stride;
     const double* const positions = nodes.positions.data();
-    const double* const reach2 = nodes.reach2.data();
+    const double* const reach2 = has_common_reach_ ? nullptr : nodes.reach2.data();
     ReachBox<Dim> box;
     box.clear();
     for (int k = 0; k < leaf_size; ++k) {
@@ -23,7 +23,7 @@ void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrde
             __builtin_prefetch(positions + static_cast<Offset>(slot[k + look_ahead]) * Dim);
             __builtin_prefetch(positions + static_cast<Offset>(slot[k + look_ahead]) * Dim + Dim -
                                1);
-            __builtin_prefetch(reach2 + slot[k + look_ahead]);
+            if (reach2 != nullptr) __builtin_prefetch(reach2 + slot[k + look_ahead]);
         }
         if (slot[k] < 0) {
             for (int d = 0; d < Dim; ++d)
@@ -36,10 +36,20 @@ void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrde
             data[d * leaf_size + k] = x[d] =
                 nodes.periods.any ? folded(nodes, slot[k], d)
                                   : positions[static_cast<Offset>(slot[k]) * Dim + d];
-        data[Dim * leaf_size + k] = reach2[slot[k]];
-        box.add(x, reach2[slot[k]]);
+        const double r2 = reach2 != nullptr ? reach2[slot[k]] : common_reach2_;
+        data[Dim * leaf_size + k] = r2;
+        box.add(x, r2);
     }
     leaves_(leaf) = box;
+    store_bounds(leaf, box);
+}
+
+template <int Dim>
+void GroupBoxes<Dim>::store_bounds(Offset leaf, const ReachBox<Dim>& box) {
+    double* const at = bounds_.data() + leaf;
+    for (int d = 0; d < Dim; ++d)
+        at[d * bounds_stride_] = box.lo[d], at[(Dim + d) * bounds_stride_] = box.hi[d];
+    at[2 * Dim * bounds_stride_] = box.reach2;
 }
 
 template <int Dim>
@@ -74,12 +84,29 @@ double GroupBoxes<Dim>::spread_of(const ReachBox<Dim>& block) const {
     return product;
 }
 
+/// One reach for all needs no random reads.
+template <int Dim>
+void GroupBoxes<Dim>::find_common_reach(const SearchNodes<Dim>& nodes) {
+    const double* const reach2 = nodes.reach2.data();
+    const double first = common_reach2_ = nodes.n > 0 ? reach2[0] : 0;
+    Offset others = 0;
+    Kokkos::parallel_reduce(
+        "search/groups/common_reach",
+        Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, nodes.n),
+        [=](const Offset i, Offset& n) { n += reach2[i] != first; }, others);
+    has_common_reach_ = others == 0;
+}
+
 template <int Dim>
 void GroupBoxes<Dim>::gather(const SearchNodes<Dim>& nodes, const GroupOrder& order) {
     ensure_capacity(data_, "search/groups/nodes", order.n_leaves() * leaf_stride);
     ensure_capacity(leaves_, "search/groups/leaves", order.n_leaves());
     ensure_capacity(tree_nodes_, "search/groups/tree", order.n_tree_nodes);
+    bounds_stride_ = order.n_leaves() + leaf_box_slack;
+    ensure_capacity(bounds_, "search/groups/bounds", bounds_stride_ * (2 * Dim + 1));
+    find_common_reach(nodes);
     all_.clear();
+    for (Offset l = order.n_leaves(); l < bounds_stride_; ++l) store_bounds(l, all_);
     for (const ClassTree& tree : order.trees) gather_tree(nodes, order, tree);
 
     spread_ = 0;

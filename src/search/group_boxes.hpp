@@ -69,6 +69,7 @@ public:
     void gather(const SearchNodes<Dim>& nodes, const GroupOrder& order);
 
     const ReachBox<Dim>& leaf(Offset l) const { return leaves_(l); }
+    LeafBoxes leaf_boxes() const { return {bounds_.data(), bounds_stride_}; }
     const ReachBox<Dim>& tree_node(Offset k) const { return tree_nodes_(k); }
     const double* leaf_data(Offset l) const { return data_.data() + l * leaf_stride; }
     LeafArray leaf_array(const GroupOrder& order) const {
@@ -84,20 +85,25 @@ public:
     double spread() const { return spread_; }
 
     Offset bytes() const {
-        return static_cast<Offset>(data_.size() * sizeof(double) +
+        return static_cast<Offset>((data_.size() + bounds_.size()) * sizeof(double) +
                                    (leaves_.size() + tree_nodes_.size()) * sizeof(ReachBox<Dim>));
     }
 
 private:
     void gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrder& order, Offset leaf);
     void gather_tree(const SearchNodes<Dim>& nodes, const GroupOrder& order, const ClassTree& tree);
+    void find_common_reach(const SearchNodes<Dim>& nodes);
+    void store_bounds(Offset leaf, const ReachBox<Dim>& box);
     double spread_of(const ReachBox<Dim>& block) const;
 
-    View<double> data_;               // by leaf: x[Dim][16], reach²[16]
-    View<ReachBox<Dim>> leaves_;      // [n_leaves]
+    View<double> data_;           // by leaf: x[Dim][16], reach²[16]
+    View<ReachBox<Dim>> leaves_;  // [n_leaves]
+    View<double> bounds_;         // the same, as vector kernels read them
+    Offset bounds_stride_ = 0;
     View<ReachBox<Dim>> tree_nodes_;  // heap order, tree after tree
     ReachBox<Dim> all_{};
-    double fold_error_ = 0, spread_ = 0;
+    double fold_error_ = 0, spread_ = 0, common_reach2_ = 0;
+    bool has_common_reach_ = false;
 };
 
 extern template class GroupBoxes<1>;

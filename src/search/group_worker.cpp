@@ -78,7 +78,10 @@ void GroupWorker<Dim>::find_leaves(const ReachBox<Dim>& box) {
     const auto& boxes = sweep_->boxes;
     const auto& order = sweep_->order;
     const double slack = 2 * boxes.fold_error();
-    leaves_.clear();
+    BoxQuery<Dim> query;
+    std::copy_n(box.lo, Dim, query.lo), std::copy_n(box.hi, Dim, query.hi);
+    query.reach2 = box.reach2, query.slack = slack;
+    n_leaves_ = 0;
     for (const ClassTree& tree : order.trees) {
         Offset stack[64];
         int depth = 0;
@@ -92,8 +95,10 @@ void GroupWorker<Dim>::find_leaves(const ReachBox<Dim>& box) {
                 continue;
             }
             const Offset block = tree.first_block + node - tree.n_blocks;
-            for (Offset l = order.block_leaf[block]; l < order.block_leaf[block + 1]; ++l)
-                if (is_near(box, boxes.leaf(l), slack)) leaves_.push_back(static_cast<int>(l));
+            const Offset first = order.block_leaf[block], last = order.block_leaf[block + 1];
+            leaves_.reserve(n_leaves_ + last - first + leaf_box_slack, n_leaves_);
+            n_leaves_ += sweep_->kernels.near(boxes.leaf_boxes(), first, last, query,
+                                              leaves_.data() + n_leaves_);
         }
     }
 }
@@ -101,16 +106,16 @@ void GroupWorker<Dim>::find_leaves(const ReachBox<Dim>& box) {
 /// Appends the candidates of one periodic image. False if there might be more than can be counted.
 template <int Dim>
 bool GroupWorker<Dim>::collect_image(const Frame<Dim>& frame, const double (&image)[Dim]) {
-    constexpr std::size_t most = std::numeric_limits<int>::max() / leaf_size - 1;
+    constexpr int most = std::numeric_limits<int>::max() / leaf_size - 1;
     ReachBox<Dim> moved = frame.box;
     for (int d = 0; d < Dim; ++d) moved.lo[d] -= image[d], moved.hi[d] -= image[d];
     find_leaves(moved);
-    if (leaves_.empty()) return true;
-    if (static_cast<std::size_t>(found_.list.n / leaf_size) + leaves_.size() > most) return false;
-    found_.reserve(found_.list.n + static_cast<int>(leaves_.size()) * leaf_size);
-    sweep_->kernels.collect(sweep_->boxes.leaf_array(sweep_->order), leaves_.data(),
-                            static_cast<int>(leaves_.size()), frame.map(image),
-                            frame.inside(frame.box, sweep_->boxes.fold_error()), found_.list);
+    if (n_leaves_ == 0) return true;
+    if (found_.list.n / leaf_size + n_leaves_ > most) return false;
+    found_.reserve(found_.list.n + n_leaves_ * leaf_size);
+    sweep_->kernels.collect(sweep_->boxes.leaf_array(sweep_->order), leaves_.data(), n_leaves_,
+                            frame.map(image), frame.inside(frame.box, sweep_->boxes.fold_error()),
+                            found_.list);
     return true;
 }
 
@@ -252,10 +257,11 @@ void GroupWorker<Dim>::process_exactly(const Range& range) {
     find_leaves(box);
     auto& list = leaf_.list;
     list.n = 0;
-    leaf_.reserve(static_cast<int>(leaves_.size()) * leaf_size);
-    for (const int leaf : leaves_)
+    leaf_.reserve(n_leaves_ * leaf_size);
+    for (int near = 0; near < n_leaves_; ++near)
         for (int k = 0; k < leaf_size; ++k) {
-            const Slot other = sweep_->order.slot(static_cast<Offset>(leaf) * leaf_size + k);
+            const Slot other =
+                sweep_->order.slot(static_cast<Offset>(leaves_.data()[near]) * leaf_size + k);
             if (other >= 0 && (other == slot || see_(slot, other, sweep_->mode)))
                 list.label[list.n++] = other;
         }
@@ -281,8 +287,7 @@ void GroupWorker<Dim>::process_exactly(const Range& range) {
 template <int Dim>
 Offset GroupWorker<Dim>::bytes() const {
     return static_cast<Offset>(found_.bytes() + block_.bytes() + group_.bytes() + leaf_.bytes() +
-                               bits_.bytes() + doubts_.bytes() + leaves_.capacity() * sizeof(int) +
-                               sizeof(*this));
+                               bits_.bytes() + doubts_.bytes() + leaves_.bytes() + sizeof(*this));
 }
 
 template class GroupWorker<1>;

@@ -69,7 +69,8 @@ private:
     int worker_ = 0;
     CandidateStore<Dim> found_, block_, group_, leaf_;
     LabelSort sort_;
-    std::vector<int> leaves_;
+    Buffer<int> leaves_;
+    int n_leaves_ = 0;
     Buffer<std::uint64_t> bits_;
     Buffer<Doubt> doubts_;
 };

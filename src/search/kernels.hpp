@@ -53,6 +53,20 @@ struct LeafArray {
     int stride;  ///< doubles a leaf
 };
 
+/// Boxes of all leaves: numbers[k * stride + leaf], k = lo[Dim], hi[Dim], largest reach².
+/// Padded with boxes that nobody is near.
+struct LeafBoxes {
+    const double* numbers;
+    long stride;
+};
+constexpr int leaf_box_slack = 8;
+
+/// A box that looks for leaves, and by how much boxes are too small.
+template <int Dim>
+struct BoxQuery {
+    double lo[Dim], hi[Dim], reach2, slack;
+};
+
 /// The nodes of one leaf against a sorted list.
 template <int Dim>
 struct LeafTest {
@@ -74,6 +88,9 @@ struct Doubt {
 template <int Dim>
 struct Kernels {
     const char* name;
+    /// Leaves of [first, last) that may hold neighbours, ascending; may write `leaf_box_slack`
+    /// beyond. Returns their number. Decides as is_near does, bit for bit.
+    int (*near)(const LeafBoxes&, long first, long last, const BoxQuery<Dim>&, int* leaves);
     /// Appends the nodes of `leaves` whose distance to the box is within reach of either side.
     void (*collect)(const LeafArray&, const int* leaves, int n_leaves, const FrameMap<Dim>&,
                     const FrameBox<Dim>&, CandidateList<Dim>& out);

@@ -29,6 +29,17 @@ struct Avx2 {
     static unsigned le(F a, F b) {
         return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)));
     }
+    static constexpr int wide_lanes = 4;
+    using D = __m256d;
+    static D load_wide(const double* p) { return _mm256_loadu_pd(p); }
+    static D set_wide(double a) { return _mm256_set1_pd(a); }
+    static D sub(D a, D b) { return _mm256_sub_pd(a, b); }
+    static D add(D a, D b) { return _mm256_add_pd(a, b); }
+    static D mul(D a, D b) { return _mm256_mul_pd(a, b); }
+    static D max(D a, D b) { return _mm256_max_pd(a, b); }
+    static unsigned le(D a, D b) {
+        return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LE_OQ)));
+    }
     static int count(unsigned mask) { return __builtin_popcount(mask); }
     static __m256i lanes_of(unsigned mask) {
         return _mm256_load_si256(reinterpret_cast<const __m256i*>(pack_table.lane[mask]));

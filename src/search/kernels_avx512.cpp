@@ -16,6 +16,15 @@ struct Avx512 {
     static F fma(F a, F b, F c) { return _mm512_fmadd_ps(a, b, c); }
     static F max(F a, F b) { return _mm512_max_ps(a, b); }
     static unsigned le(F a, F b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+    static constexpr int wide_lanes = 8;
+    using D = __m512d;
+    static D load_wide(const double* p) { return _mm512_loadu_pd(p); }
+    static D set_wide(double a) { return _mm512_set1_pd(a); }
+    static D sub(D a, D b) { return _mm512_sub_pd(a, b); }
+    static D add(D a, D b) { return _mm512_add_pd(a, b); }
+    static D mul(D a, D b) { return _mm512_mul_pd(a, b); }
+    static D max(D a, D b) { return _mm512_max_pd(a, b); }
+    static unsigned le(D a, D b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
     static int count(unsigned mask) { return __builtin_popcount(mask); }
     // Compress in a register, then a plain store: the memory form of vpcompressd is slow on Zen 4.
     static void pack(float* to, unsigned mask, F a) {

@@ -5,7 +5,8 @@
 /// instruction sets share a function.
 ///
 /// V has: lanes, F (vector of floats), load, set, sub, mul, fma, max, le (mask), pack (store the
-/// lanes of a mask to the front; may write all lanes), load_doubles (16 doubles -> floats in a
+/// lanes of a mask to the front; may write all lanes), wide_lanes, load_wide, set_wide and the
+/// arithmetic for vectors of doubles, load_doubles (16 doubles -> floats in a
 /// frame), places.
 
 #include "kernels.hpp"
@@ -53,6 +54,30 @@ inline void pad(CandidateList<Dim>& list) {
         list.t[k] = 0;
         list.label[k] = no_label;
     }
+}
+
+template <class V, int Dim>
+int near(const LeafBoxes& boxes, long first, long last, const BoxQuery<Dim>& query, int* leaves) {
+    const auto bound = [&](int k, long leaf) {
+        return V::load_wide(boxes.numbers + k * boxes.stride + leaf);
+    };
+    const auto own = V::set_wide(query.reach2 > 0 ? query.reach2 : 0.0),
+               slack = V::set_wide(query.slack), zero = V::set_wide(0);
+    int n = 0;
+    for (long leaf = first; leaf < last; leaf += V::wide_lanes) {
+        auto sum = zero;
+        for (int d = 0; d < Dim; ++d) {
+            const auto gap = V::max(V::sub(bound(d, leaf), V::set_wide(query.hi[d])),
+                                    V::sub(V::set_wide(query.lo[d]), bound(Dim + d, leaf)));
+            const auto outside = V::max(V::sub(gap, slack), zero);
+            sum = V::add(sum, V::mul(outside, outside));
+        }
+        for (unsigned found = V::le(sum, V::max(own, bound(2 * Dim, leaf))); found != 0;
+             found &= found - 1)
+            leaves[n++] = static_cast<int>(leaf) + __builtin_ctz(found);
+    }
+    while (n > 0 && leaves[n - 1] >= last) --n;  // those belong to the next block
+    return n;
 }
 
 template <class V, int Dim, bool Uniform>
@@ -159,7 +184,8 @@ int count(const std::uint64_t* bits, int place) {
 
 template <class V, int Dim>
 constexpr Kernels<Dim> make_kernels(const char* name) {
-    return {name, collect<V, Dim>, filter<V, Dim>, test<V, Dim>, expand<V>, count<V>, V::places};
+    return {name,         near<V, Dim>, collect<V, Dim>, filter<V, Dim>,
+            test<V, Dim>, expand<V>,    count<V>,        V::places};
 }
 
 }  // namespace

@@ -14,6 +14,14 @@ struct Scalar {
     static F fma(F a, F b, F c) { return a * b + c; }
     static F max(F a, F b) { return a > b ? a : b; }
     static unsigned le(F a, F b) { return a <= b; }
+    static constexpr int wide_lanes = 1;
+    static double load_wide(const double* p) { return *p; }
+    static double set_wide(double a) { return a; }
+    static double sub(double a, double b) { return a - b; }
+    static double add(double a, double b) { return a + b; }
+    static double mul(double a, double b) { return a * b; }
+    static double max(double a, double b) { return a > b ? a : b; }
+    static unsigned le(double a, double b) { return a <= b; }
     static unsigned count(unsigned mask) { return mask; }
     static void pack(float* to, unsigned, F a) { *to = a; }
     static void pack(int* to, unsigned, const int* from) { *to = *from; }
