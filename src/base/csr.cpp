@@ -18,6 +18,14 @@ void Csr::take_spare(Offset n_rows) {
     pending_rows_ = n_rows;
 }
 
+/// Ends the counting; returns the bytes that the rows will hold.
+Offset Csr::set_total(Offset n_rows, Offset total) {
+    spare_(n_rows) = total;
+    pending_values_ = total;
+    return total * static_cast<Offset>(sizeof(Slot)) +
+           (n_rows + 1) * static_cast<Offset>(sizeof(Offset));
+}
+
 void Csr::reserve() {
     const bool shared = values_.use_count() > 1;
     grown_ = {};

@@ -90,10 +90,13 @@ void GroupBoxes<Dim>::find_common_reach(const SearchNodes<Dim>& nodes) {
     const double* const reach2 = nodes.reach2.data();
     const double first = common_reach2_ = nodes.n > 0 ? reach2[0] : 0;
     Offset others = 0;
-    Kokkos::parallel_reduce(
-        "search/groups/common_reach",
-        Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, nodes.n),
-        [=](const Offset i, Offset& n) { n += reach2[i] != first; }, others);
+    if (nodes.n <= few_items)
+        others = std::count_if(reach2, reach2 + nodes.n, [=](double r2) { return r2 != first; });
+    else
+        Kokkos::parallel_reduce(
+            "search/groups/common_reach",
+            Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, nodes.n),
+            [=](const Offset i, Offset& n) { n += reach2[i] != first; }, others);
     has_common_reach_ = others == 0;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include <connectivity/base/parallel.hpp>
 #include <connectivity/base/spaces.hpp>
 
 namespace connectivity {
@@ -61,6 +62,7 @@ private:
         return {std::size_t{0}, static_cast<std::size_t>(n)};
     }
     void take_spare(Offset n_rows);
+    Offset set_total(Offset n_rows, Offset total);
 
     std::string label_;
     View<Offset> offsets_, spare_;
@@ -73,6 +75,11 @@ Offset Csr::prepare(Offset n_rows, const Count& count) {
     take_spare(n_rows);
     Offset* const offsets = spare_.data();
     Offset total = 0;
+    if (n_rows <= few_items) {
+        for (Offset i = 0; i < n_rows; ++i)
+            offsets[i] = std::exchange(total, total + static_cast<Offset>(count(i)));
+        return set_total(n_rows, total);
+    }
     const Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>> rows(0, n_rows);
     Kokkos::parallel_for(label_ + "/count", rows,
                          [=](const Offset i) { offsets[i] = static_cast<Offset>(count(i)); });
@@ -85,10 +92,7 @@ Offset Csr::prepare(Offset n_rows, const Count& count) {
         },
         total);
     HostExec().fence();
-    offsets[n_rows] = total;
-    pending_values_ = total;
-    return total * static_cast<Offset>(sizeof(Slot)) +
-           (n_rows + 1) * static_cast<Offset>(sizeof(Offset));
+    return set_total(n_rows, total);
 }
 
 template <class Fill>

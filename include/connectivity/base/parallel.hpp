@@ -12,11 +12,15 @@ namespace connectivity {
 /// Workers that `for_each_dynamic` may use.
 inline int n_workers() { return HostExec().concurrency(); }
 
+/// Cheap loops over fewer items cost less than waking the threads for them.
+constexpr Offset few_items = 4096;
+
 /// body(worker, item) for every item in [0, n_items), in ascending order of start; worker <
 /// n_workers(). Which worker takes an item depends on the run, so results must not depend on the
 /// worker. `body` must not throw.
 template <class Body>
 void for_each_dynamic(const std::string& label, Offset n_items, const Body& body) {
+    if (n_items == 1) return body(0, 0);
     std::atomic<Offset> next{0};
     auto* const counter = &next;
     Kokkos::parallel_for(
