@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 
+#include <connectivity/base/kokkos_shim.hpp>
 #include <connectivity/base/runtime.hpp>
 
 #include "drift.hpp"
@@ -32,28 +33,30 @@ ConnectivityMap& ConnectivityMap::operator=(ConnectivityMap&&) noexcept = defaul
 
 namespace {
 
-void check_request(std::span<const NodeList> lists, const MapOptions& options) {
-    if (lists.empty()) throw Error(Status::argument, "rebuild: 0 node lists, must be at least 1");
+/// `call` is the function whose arguments these are, for messages.
+void check_request(const std::string& call, std::span<const NodeList> lists,
+                   const MapOptions& options) {
+    if (lists.empty()) throw Error(Status::argument, call + ": 0 node lists, must be at least 1");
     Offset n = 0;
     for (std::size_t l = 0; l < lists.size(); ++l) {
         if (lists[l].dim() != lists[0].dim())
             throw Error(Status::argument,
-                        "rebuild: node list " + std::to_string(l) + " (\"" + lists[l].name() +
+                        call + ": node list " + std::to_string(l) + " (\"" + lists[l].name() +
                             "\") has dim = " + std::to_string(lists[l].dim()) +
                             ", the first list has " + std::to_string(lists[0].dim()));
         n += lists[l].n();
     }
     if (n > max_slots)
-        throw Error(Status::too_many, "rebuild: " + std::to_string(n) + " nodes, must be at most " +
+        throw Error(Status::too_many, call + ": " + std::to_string(n) + " nodes, must be at most " +
                                           std::to_string(max_slots));
     if (options.pairs && options.mode != SearchMode::gather_scatter)
         throw Error(Status::argument,
-                    "rebuild: pairs exist only for gather_scatter; ask for rows alone");
+                    call + ": pairs exist only for gather_scatter; ask for rows alone");
     if (options.budget.bytes < 0)
-        throw Error(Status::argument, "rebuild: budget of " + std::to_string(options.budget.bytes) +
+        throw Error(Status::argument, call + ": budget of " + std::to_string(options.budget.bytes) +
                                           " bytes, must be >= 0");
     if (options.skin != 0 && !(options.skin >= 1e-100 && options.skin <= 1e100))
-        throw Error(Status::argument, "rebuild: skin = " + std::to_string(options.skin) +
+        throw Error(Status::argument, call + ": skin = " + std::to_string(options.skin) +
                                           ", must be 0 or in [1e-100, 1e100]");
     options.domain.check(lists[0].dim());
 }
@@ -68,7 +71,7 @@ SlotLayout layout_of(std::span<const NodeList> lists, bool ghost_rows) {
 
 void ConnectivityMap::rebuild(std::span<const NodeList> lists, const MapOptions& options) {
     start_runtime();
-    check_request(lists, options);
+    check_request("rebuild", lists, options);
     try {
         switch (lists[0].dim()) {
             case 1: return rebuild_in<1>(lists, options);
@@ -82,11 +85,7 @@ void ConnectivityMap::rebuild(std::span<const NodeList> lists, const MapOptions&
 
 template <int Dim>
 void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptions& options) {
-    Kokkos::Profiling::pushRegion("map/rebuild");
-    struct Pop {
-        ~Pop() { Kokkos::Profiling::popRegion(); }
-    } pop_region;
-
+    const shim::ProfilingRegion region("map/rebuild");
     Report report;
     SlotLayout layout = layout_of(lists, options.ghost_rows);
     std::vector<std::string> names;
@@ -126,6 +125,55 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
     if (!options.pairs) pairs_.first_ = {};
     report_.entry("pairs").bytes = pairs_.bytes();
     pairs_.generation_ = ++generation_;
+}
+
+void ConnectivityMap::for_each_row(std::span<const NodeList> lists, const MapOptions& options,
+                                   RowFunction f) {
+    MapOptions rows_only = options;
+    rows_only.rows = true, rows_only.pairs = false;
+    check_request("for_each_row", lists, rows_only);
+    traverse(lists, rows_only, f);
+}
+
+void ConnectivityMap::for_each_half_row(std::span<const NodeList> lists, const MapOptions& options,
+                                        RowFunction f) {
+    MapOptions halves_only = options;
+    halves_only.rows = false, halves_only.pairs = true;
+    check_request("for_each_half_row", lists, halves_only);
+    traverse(lists, halves_only, f);
+}
+
+void ConnectivityMap::traverse(std::span<const NodeList> lists, const MapOptions& options,
+                               RowFunction f) {
+    start_runtime();
+    const shim::ProfilingRegion region("map/traverse");
+    try {
+        switch (lists[0].dim()) {
+            case 1: return traverse_in<1>(lists, options, f);
+            case 2: return traverse_in<2>(lists, options, f);
+            default: return traverse_in<3>(lists, options, f);
+        }
+    } catch (const HostException& e) {
+        std::rethrow_exception(e.cause);
+    } catch (const std::bad_alloc&) {
+        throw Error(Status::memory, "traversal: out of memory");
+    }
+}
+
+template <int Dim>
+void ConnectivityMap::traverse_in(std::span<const NodeList> lists, const MapOptions& options,
+                                  RowFunction f) {
+    const Stopwatch preparing;
+    Report report = report_;
+    const SlotLayout layout = layout_of(lists, options.ghost_rows);
+    const SearchNodes<Dim> nodes =
+        prepare_nodes<Dim>(lists, options.domain, impl_->storage, options.skin);
+    report.entry("nodes").bytes = impl_->storage.bytes();
+    const double prepared_ms = preparing.ms();
+    const SearchRequest request{options.rows, options.pairs, options.mode, options.method, {}};
+    impl_->search<Dim>().visit(nodes, layout, request, f, report);
+    report.entry("traversal").ms += prepared_ms;
+    std::swap(report_, report);
 }
 
 /// All that may fail; the lists are still the old ones.

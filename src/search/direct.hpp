@@ -8,7 +8,9 @@
 
 #include <algorithm>
 
+#include "first_exception.hpp"
 #include "products.hpp"
+#include "row_visitor.hpp"
 
 namespace connectivity::detail {
 
@@ -28,6 +30,28 @@ public:
         if (request_.half_rows) fill_halves(products.halves);
     }
 
+    /// Hands every row, or every half row, to f and stores none. Throws what f throws as
+    /// HostException, Error{memory}.
+    void visit(const RowFunction& f) const {
+        constexpr Offset slots_per_chunk = 64;
+        const Offset n = layout_.n_slots();
+        std::vector<std::vector<Slot>> row(static_cast<std::size_t>(n_workers()));
+        FirstException first;
+        for_each_dynamic("search/direct/visit", (n + slots_per_chunk - 1) / slots_per_chunk,
+                         [&](int worker, Offset chunk) {
+                             if (first.any()) return;
+                             const Offset begin = chunk * slots_per_chunk;
+                             try {
+                                 for (Offset i = begin; i < std::min(begin + slots_per_chunk, n);
+                                      ++i)
+                                     visit_slot(worker, i, row[worker], f);
+                             } catch (...) {
+                                 first.keep();
+                             }
+                         });
+        first.rethrow();
+    }
+
 private:
     using Slots =
         Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>, Kokkos::Schedule<Kokkos::Dynamic>>;
@@ -43,6 +67,17 @@ private:
     /// Does the pair {i, j}, j after i, stand in the half row of i?
     bool is_partner(Offset i, Offset j, bool stored) const {
         return j > i && (stored || layout_.is_stored(j));
+    }
+
+    void visit_slot(int worker, Offset i, std::vector<Slot>& row, const RowFunction& f) const {
+        const bool stored = layout_.is_stored(i);
+        if (request_.rows && !stored) return;
+        row.clear();
+        neighbours(i, [&](Offset j) {
+            if (request_.rows || is_partner(i, j, stored)) row.push_back(static_cast<Slot>(j));
+        });
+        std::sort(row.begin(), row.end());
+        call_host(f, worker, static_cast<Slot>(i), row);
     }
 
     void count() {

@@ -38,7 +38,7 @@ bool GroupWorker<Dim>::is_wanted(const Range& range) const {
     const Offset begin = range.first * leaf_size + std::max(range.only, 0);
     const Offset end = range.only < 0 ? range.last * leaf_size : begin + 1;
     return std::any_of(slot + begin, slot + end, [this](Slot s) {
-        return s >= 0 && sweep_->store.wanted(s) != RowStore::Wanted::nothing;
+        return s >= 0 && sweep_->sink.wanted(s) != RowSink::Wanted::nothing;
     });
 }
 
@@ -49,7 +49,7 @@ void GroupWorker<Dim>::process(const Range& range) {
         const Slot* const slot = sweep_->order.slot.data();
         for (Offset p = range.first * leaf_size; p < range.last * leaf_size; ++p)
             if (slot[p] >= 0 && (range.only < 0 || p % leaf_size == range.only))
-                sweep_->store.store_nothing(slot[p]);
+                sweep_->sink.store_nothing(worker_, slot[p]);
         return;
     }
     const Frame<Dim> frame(box_of(range), sweep_->boxes);
@@ -172,7 +172,7 @@ void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame)
                            frame.uniform, leaf_.list);
 
     LeafTest<Dim> test;
-    RowStore::Wanted wanted[leaf_size];
+    RowSink::Wanted wanted[leaf_size];
     int own[leaf_size], place[leaf_size];
     test.n_nodes = 0;
     std::fill_n(own, leaf_size, 0);
@@ -184,15 +184,15 @@ void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame)
                 static_cast<float>((data[d * leaf_size + k] - frame.centre[d]) * frame.scale);
         test.t[at] = static_cast<float>(data[Dim * leaf_size + k] * frame.t_scale());
         own[at] = slot[k];
-        sweep_->store.prefetch(slot[k]);
-        wanted[at] = sweep_->store.wanted(slot[k]);
+        sweep_->sink.prefetch(slot[k]);
+        wanted[at] = sweep_->sink.wanted(slot[k]);
     }
     const int words = n_words(leaf_.list.n);
     sweep_->kernels.places(own, leaf_.list.label, leaf_.list.n, place);
     for (int at = 0; at < test.n_nodes; ++at)
-        test.first_word[at] = wanted[at] == RowStore::Wanted::all     ? 0
-                              : wanted[at] == RowStore::Wanted::later ? place[at] / word_size
-                                                                      : words;
+        test.first_word[at] = wanted[at] == RowSink::Wanted::all     ? 0
+                              : wanted[at] == RowSink::Wanted::later ? place[at] / word_size
+                                                                     : words;
     test.band = frame.band();
     test.uniform = frame.uniform;
     test.superset = superset_;
@@ -234,14 +234,14 @@ void GroupWorker<Dim>::confirm(Slot slot, std::uint64_t* bits, int first_word, i
 
 template <int Dim>
 void GroupWorker<Dim>::keep_row(Slot slot, std::uint64_t* bits, int words, int place,
-                                RowStore::Wanted wanted) {
-    if (wanted == RowStore::Wanted::nothing) return sweep_->store.store_nothing(slot);
+                                RowSink::Wanted wanted) {
+    if (wanted == RowSink::Wanted::nothing) return sweep_->sink.store_nothing(worker_, slot);
     const int own_word = place / word_size;
     bits[own_word] &= ~(std::uint64_t{1} << (place % word_size));
-    if (wanted == RowStore::Wanted::later)
+    if (wanted == RowSink::Wanted::later)
         bits[own_word] &= ~std::uint64_t{0} << (place % word_size);
-    if (superset_) confirm(slot, bits, wanted == RowStore::Wanted::all ? 0 : own_word, words);
-    sweep_->store.store(worker_, {slot, bits, leaf_.list.label, words, place});
+    if (superset_) confirm(slot, bits, wanted == RowSink::Wanted::all ? 0 : own_word, words);
+    sweep_->sink.store(worker_, {slot, bits, leaf_.list.label, words, place});
 }
 
 /// The last resort for a node whose frame has no good floats: all nodes of near leaves, each once,
@@ -276,12 +276,12 @@ void GroupWorker<Dim>::process_exactly(const Range& range) {
     const int place =
         static_cast<int>(std::lower_bound(list.label, list.label + list.n, slot) - list.label);
     ++counters.exact_nodes;
-    const auto wanted = sweep_->store.wanted(slot);
-    if (wanted == RowStore::Wanted::later) {
+    const auto wanted = sweep_->sink.wanted(slot);
+    if (wanted == RowSink::Wanted::later) {
         std::fill_n(bits_.data(), place / word_size, std::uint64_t{0});
         bits_.data()[place / word_size] &= ~std::uint64_t{0} << (place % word_size);
     }
-    sweep_->store.store(worker_, {slot, bits_.data(), list.label, words, place});
+    sweep_->sink.store(worker_, {slot, bits_.data(), list.label, words, place});
 }
 
 template <int Dim>

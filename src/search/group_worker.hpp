@@ -10,7 +10,8 @@
 
 #include "candidate_store.hpp"
 #include "frame.hpp"
-#include "row_store.hpp"
+#include "kernels.hpp"
+#include "row_sink.hpp"
 
 namespace connectivity::detail {
 
@@ -23,7 +24,7 @@ struct GroupSweep {
     const Kernels<Dim>& kernels;
     SearchMode mode;
     int label_bits;
-    RowStore& store;
+    RowSink& sink;
 };
 
 /// Scratch memory of one thread; kept from build to build.
@@ -34,7 +35,8 @@ public:
         Offset candidates = 0, doubts = 0, exact_nodes = 0;
     };
 
-    /// Finds and stores the rows of leaves [first, last). Throws Error{memory}, std::bad_alloc.
+    /// Finds the rows of leaves [first, last) and hands them over. Throws Error{memory},
+    /// std::bad_alloc, and what the sink throws.
     void process(const GroupSweep<Dim>& sweep, int worker, Offset first, Offset last);
 
     Counters counters;
@@ -55,7 +57,7 @@ private:
     void test_groups(const Range& range, const Frame<Dim>& frame);
     void test_leaf(Offset leaf, int only, const Frame<Dim>& frame);
     void settle_doubts(const int* own, int words, int n_doubts);
-    void keep_row(Slot slot, std::uint64_t* bits, int words, int place, RowStore::Wanted wanted);
+    void keep_row(Slot slot, std::uint64_t* bits, int words, int place, RowSink::Wanted wanted);
     void confirm(Slot slot, std::uint64_t* bits, int first_word, int words) const;
 
     void process_exactly(const Range& range);

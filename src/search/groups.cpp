@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "groups.hpp"
 
-#include <exception>
-#include <mutex>
+#include "first_exception.hpp"
 
 namespace connectivity::detail {
 
@@ -13,30 +12,6 @@ int bits_for(Offset n) {
     while ((Offset{1} << bits) < n) ++bits;
     return bits;
 }
-
-/// The first exception of a parallel loop, thrown again after it.
-class FirstException {
-public:
-    void keep() noexcept {
-        const std::lock_guard lock(mutex_);
-        if (!exception_) exception_ = std::current_exception();
-        any_ = true;
-    }
-    bool any() const { return any_.load(std::memory_order_relaxed); }
-    void rethrow() const {
-        if (!exception_) return;
-        try {
-            std::rethrow_exception(exception_);
-        } catch (const std::bad_alloc&) {
-            throw Error(Status::memory, "the search ran out of memory for its candidate lists");
-        }
-    }
-
-private:
-    std::mutex mutex_;
-    std::exception_ptr exception_;
-    std::atomic<bool> any_{false};
-};
 
 }  // namespace
 
@@ -75,6 +50,11 @@ void GroupSearch<Dim>::sweep(const GroupSweep<Dim>& shared, Offset stride) {
         }
     });
     first.rethrow();
+}
+
+template <int Dim>
+void GroupSearch<Dim>::sweep_into_store(const GroupSweep<Dim>& shared, Offset stride) {
+    sweep(shared, stride);
     store_.end_sweep();
 }
 
@@ -83,7 +63,7 @@ template <int Dim>
 Offset GroupSearch<Dim>::estimate_entries(const GroupSweep<Dim>& shared) {
     constexpr Offset stride = 64;
     store_.begin_sweep(0, 0);
-    sweep(shared, stride);
+    sweep_into_store(shared, stride);
     Offset entries = 0, sampled = 0;
     for (Offset b = 0; b < order_.n_blocks(); b += stride)
         for (Offset p = order_.block_leaf[b] * leaf_size; p < order_.block_leaf[b + 1] * leaf_size;
@@ -97,12 +77,26 @@ Offset GroupSearch<Dim>::estimate_entries(const GroupSweep<Dim>& shared) {
 }
 
 template <int Dim>
-void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
-                           const SearchRequest& request, Products products, Report& report) {
-    const Kernels<Dim>& table = kernels<Dim>();
+void GroupSearch<Dim>::reserve_workers() {
     if (workers_.size() < static_cast<std::size_t>(n_workers()))
         workers_ = std::vector<GroupWorker<Dim>>(n_workers());
     for (auto& worker : workers_) worker.counters = {};
+}
+
+template <int Dim>
+void GroupSearch<Dim>::visit(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
+                             const SearchRequest& request, RowFunction f) {
+    const Kernels<Dim>& table = kernels<Dim>();
+    reserve_workers();
+    RowVisitor visitor(layout, !request.rows, {table.expand, table.count}, f);
+    sweep({nodes, order_, boxes_, table, request.mode, bits_for(nodes.n), visitor}, 1);
+}
+
+template <int Dim>
+void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
+                           const SearchRequest& request, Products products, Report& report) {
+    const Kernels<Dim>& table = kernels<Dim>();
+    reserve_workers();
     store_.begin(layout, request.rows, request.half_rows, {table.expand, table.count});
     const GroupSweep<Dim> shared{nodes, order_, boxes_, table, request.mode, bits_for(nodes.n),
                                  store_};
@@ -125,12 +119,12 @@ void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout
     const bool surely_fits = expected < slack / 4 || request.budget.allows(4 * expected);
     try {
         store_.begin_sweep(surely_fits ? 2 * expected + slack : 0, expected);
-        sweep(shared, 1);
+        sweep_into_store(shared, 1);
         const Offset result = products.prepare(store_.counts(), layout, request.budget);
         if (!store_.only_counted()) return;
         const Offset free = Budget().allowed();
         store_.begin_sweep(free, result);
-        sweep(shared, 1);
+        sweep_into_store(shared, 1);
         if (store_.only_counted())
             throw Error(Status::budget, "the search needs more than " + human_bytes(free) +
                                             " while it runs, the memory that is free, beside the " +

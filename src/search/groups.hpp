@@ -9,6 +9,8 @@
 /// row records, and the arenas, which hold as many entries as the lists.
 
 #include "group_worker.hpp"
+#include "row_store.hpp"
+#include "row_visitor.hpp"
 
 namespace connectivity::detail {
 
@@ -23,6 +25,11 @@ public:
     void run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request,
              Products products, Report& report);
 
+    /// Hands the rows of the nodes ordered last, or their half rows, to f. Throws what f throws
+    /// as HostException, Error{memory}.
+    void visit(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
+               const SearchRequest& request, RowFunction f);
+
     /// Slots in the order made last, [n].
     View<Slot> spatial_order() const;
 
@@ -30,7 +37,9 @@ public:
     Offset scratch_bytes() const;
 
 private:
+    void reserve_workers();
     void sweep(const GroupSweep<Dim>& shared, Offset stride);
+    void sweep_into_store(const GroupSweep<Dim>& shared, Offset stride);
     Offset estimate_entries(const GroupSweep<Dim>& shared);
     void find_rows(const GroupSweep<Dim>& shared, const SlotLayout& layout,
                    const SearchRequest& request, Products products);

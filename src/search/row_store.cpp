@@ -8,18 +8,13 @@
 namespace connectivity::detail {
 
 void RowStore::begin(const SlotLayout& layout, bool rows, bool halves, BitKernels kernels) {
-    layout_ = &layout;
-    rows_ = rows;
-    halves_ = halves;
+    want(layout, rows, halves);
     kernels_ = kernels;
-    last_stored_ = -1;
-    for (int l = 0; l < layout.n_lists(); ++l) {
-        const Offset n_stored = layout.row_offset()[l + 1] - layout.row_offset()[l];
-        if (n_stored > 0) last_stored_ = static_cast<Slot>(layout.list_offset()[l] + n_stored - 1);
-    }
     if (workers_.size() < static_cast<std::size_t>(n_workers()))
         workers_ = std::vector<Worker>(n_workers());
     ensure_capacity(row_, "search/groups/row", layout.n_slots());
+    records_ = reinterpret_cast<const char*>(row_.data());
+    record_bytes_ = sizeof(ArenaRow);
     if (rows && layout.n_lists() > 1)
         ensure_capacity(by_list_, "search/groups/by_list", layout.n_rows() * layout.n_lists());
 }
@@ -37,12 +32,7 @@ void RowStore::end_sweep() {
     for (Worker& worker : workers_) worker.arena.flush();
 }
 
-RowStore::Wanted RowStore::wanted(Slot slot) const {
-    if (rows_ && layout_->is_stored(slot)) return Wanted::all;
-    return halves_ && slot <= last_stored_ ? Wanted::later : Wanted::nothing;
-}
-
-void RowStore::store_nothing(Slot slot) {
+void RowStore::store_nothing(int, Slot slot) {
     record(slot, nullptr, 0, 0);
     if (const Offset row = layout_->row_of_slot(slot); rows_ && row >= 0)
         count_lists(row, nullptr, 0);
@@ -58,12 +48,6 @@ Slot* RowStore::room(Worker& worker, Offset n) {
     }
     if (static_cast<Offset>(worker.row.size()) < n + list_slack) worker.row.resize(n + list_slack);
     return worker.row.data();
-}
-
-/// Drops slots that have no row; returns how many are left.
-int RowStore::keep_stored(Slot* row, int n) const {
-    return static_cast<int>(
-        std::remove_if(row, row + n, [this](Slot s) { return !layout_->is_stored(s); }) - row);
 }
 
 void RowStore::count_lists(Offset row, const Slot* slots, Offset n) {

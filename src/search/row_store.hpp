@@ -15,18 +15,9 @@
 
 #include "products.hpp"
 #include "row_arena.hpp"
+#include "row_sink.hpp"
 
 namespace connectivity::detail {
-
-/// Bits of one node over a sorted list of labels.
-struct FoundRow {
-    Slot slot;
-    const std::uint64_t* bits;
-    const int* label;
-    int n_words;
-    int place;  ///< of the node's own label in the list; its bit is off, and all below if only
-                ///< later entries are wanted
-};
 
 /// Where a row lies in an arena, and what it holds.
 struct ArenaRow {
@@ -35,17 +26,8 @@ struct ArenaRow {
     Slot later;         ///< how many of them, at the end, belong to the half row
 };
 
-/// What a row store does with bits; see Kernels<Dim>.
-struct BitKernels {
-    int (*expand)(const std::uint64_t* bits, int n_words, const int* label, int* out);
-    int (*count)(const std::uint64_t* bits, int place);
-};
-
-class RowStore {
+class RowStore final : public RowSink {
 public:
-    /// What a sweep must find for a slot.
-    enum class Wanted { nothing, later, all };
-
     /// Makes room. Throws Error{memory}.
     void begin(const SlotLayout& layout, bool rows, bool halves, BitKernels kernels);
 
@@ -56,15 +38,9 @@ public:
     /// Ends the sweep: every row lies in its place. Cannot fail.
     void end_sweep();
 
-    Wanted wanted(Slot slot) const;
-
-    /// Asks early for the place where a slot's record will be written: records are visited at
-    /// random, and a store that waits for its line holds up all that follow.
-    void prefetch(Slot slot) const { __builtin_prefetch(row_.data() + slot, 1); }
-
     /// Called by worker `worker`. Throws Error{memory}.
-    void store(int worker, const FoundRow& row);
-    void store_nothing(Slot slot);
+    void store(int worker, const FoundRow& row) override;
+    void store_nothing(int worker, Slot slot) override;
 
     /// Some rows were only counted: the counts are complete, the rows are not.
     bool only_counted() const { return only_counts_.load(std::memory_order_relaxed); }
@@ -89,14 +65,11 @@ private:
 
     Slot* room(Worker& worker, Offset n);
     void record(Slot slot, const Slot* first, int n, int later);
-    int keep_stored(Slot* row, int n) const;
     void count_lists(Offset row, const Slot* slots, Offset n);
     void transfer_slots(Offset first, Offset last, const Products& products) const;
 
-    const SlotLayout* layout_ = nullptr;
-    bool rows_ = false, halves_ = false, past_caches_ = false;
+    bool past_caches_ = false;
     Offset arena_bytes_ = 0;
-    Slot last_stored_ = -1;
     BitKernels kernels_{};
     std::atomic<bool> only_counts_{false};
     std::atomic<Offset> used_{0};

@@ -102,6 +102,31 @@ void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
 }
 
 template <int Dim>
+void Search<Dim>::visit(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
+                        const SearchRequest& request, RowFunction f, Report& report) {
+    const Choice choice = choose(request.method, nodes.n);
+    auto& group_search = state_->groups;
+    // Entries are made before the work: the host has seen all rows when it ends.
+    announce(report, "traversal", "caller", choice.reason);
+    for (const char* held : {"order", "scratch"}) report.entry(held);
+    const Stopwatch watch;
+    if (choice.method == SearchMethod::brute) {
+        detail::DirectBuild<Dim, detail::AllNodes>({nodes.n}, nodes, layout, request).visit(f);
+    } else if (choice.method == SearchMethod::cells) {
+        const detail::Cells<Dim> cells(nodes);
+        detail::DirectBuild<Dim, detail::Cells<Dim>>(cells, nodes, layout, request).visit(f);
+    } else {
+        Report of_order;
+        group_search.update_order(nodes, of_order);
+        report.entry("traversal").reused = of_order.entry("order").reused;
+        group_search.visit(nodes, layout, request, f);
+    }
+    report.entry("traversal").ms = watch.ms();
+    report.entry("order").bytes = group_search.order_bytes();
+    report.entry("scratch").bytes = group_search.scratch_bytes();
+}
+
+template <int Dim>
 View<Slot> Search<Dim>::spatial_order(const SearchNodes<Dim>& nodes, Report& report) {
     state_->groups.update_order(nodes, report);
     report.entry("order").asked_by = "caller";

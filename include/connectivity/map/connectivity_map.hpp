@@ -78,6 +78,25 @@ public:
     /// the rebuild it asks for does. `drift`, if given, receives the drift.
     bool needs_rebuild(std::span<const NodeList> lists, double* drift = nullptr);
 
+    /// Storage-free traversal: f(worker, slot, neighbours) gets what a rebuild with these lists and
+    /// options would put in rows, and nothing is stored. `neighbours`, a std::span<const Slot>
+    /// valid during the call, are ascending slots, lists one after the other. Each stored node
+    /// comes exactly once, also without neighbours, in any order, from several threads at once;
+    /// worker < n_workers() numbers them, for private accumulators. options.rows, pairs,
+    /// spatial_order and budget do not count here. f must not call this map but for const members,
+    /// nor launch kernels.
+    ///
+    /// No rebuild: lists, views, generation, drift and options stay those of the last one; the
+    /// report gains an entry "traversal". Throws as `rebuild` does, and the first exception that f
+    /// throws, which ends the traversal early. Takes no memory for lists; order and scratch memory
+    /// of the search are kept and shared with rebuilds.
+    void for_each_row(std::span<const NodeList> lists, const MapOptions& options, RowFunction f);
+
+    /// The same with half rows: each slot exactly once with its partners after it, as in pairs().
+    /// So every pair comes once. Throws Error{argument} for gather and scatter.
+    void for_each_half_row(std::span<const NodeList> lists, const MapOptions& options,
+                           RowFunction f);
+
     const ReuseCounts& reuse() const { return reuse_; }
 
     Generation generation() const { return generation_; }  ///< 0 before the first rebuild
@@ -107,6 +126,9 @@ public:
 private:
     template <int Dim>
     void rebuild_in(std::span<const NodeList> lists, const MapOptions& options);
+    void traverse(std::span<const NodeList> lists, const MapOptions& options, RowFunction f);
+    template <int Dim>
+    void traverse_in(std::span<const NodeList> lists, const MapOptions& options, RowFunction f);
     void reserve_reference(std::span<const NodeList> lists, const MapOptions& options,
                            Report& report);
     void keep_reference(std::span<const NodeList> lists, Report& report);

@@ -20,6 +20,7 @@
 #include <connectivity/base/report.hpp>
 #include <connectivity/search/layout.hpp>
 #include <connectivity/search/predicate.hpp>
+#include <connectivity/search/row_function.hpp>
 
 namespace connectivity {
 
@@ -51,6 +52,14 @@ public:
     /// the worst node; Error{memory}.
     void run(const SearchNodes<Dim>& nodes, const SlotLayout& layout, const SearchRequest& request,
              Csr& rows, Csr& half_rows, Report& report);
+
+    /// Hands every row (request.rows) or else every half row to f, and stores none: whole rows of
+    /// all stored slots, half rows of all slots, empty ones too, each once, in any order, from
+    /// several threads at once, with worker < n_workers(). Where f throws, the search stops and
+    /// the first of these exceptions comes out as HostException. Throws Error{memory},
+    /// std::bad_alloc.
+    void visit(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
+               const SearchRequest& request, RowFunction f, Report& report);
 
     /// Slots in an order that keeps neighbours close in memory, [n]: the one that `groups` works
     /// in. Call it right before `run`, tell by SearchRequest::ordered, and the work is done once.
