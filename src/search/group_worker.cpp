@@ -12,6 +12,14 @@ void GroupWorker<Dim>::process(const GroupSweep<Dim>& sweep, int worker, Offset 
     sweep_ = &sweep;
     see_ = significance(sweep.nodes);
     superset_ = sweep.mode != SearchMode::gather_scatter || see_.H != nullptr;
+    predicate_ = {see_.positions,
+                  see_.reach2,
+                  see_.H,
+                  see_.extent2,
+                  {},
+                  sweep.mode != SearchMode::scatter,
+                  sweep.mode != SearchMode::gather};
+    if (see_.periods.any) std::copy_n(see_.periods.length, Dim, predicate_.period);
     worker_ = worker;
     if (first < last) process({first, last, -1});
 }
@@ -142,8 +150,21 @@ bool GroupWorker<Dim>::find_candidates(const Frame<Dim>& frame) {
     block_.reserve(found_.list.n);
     sort_(found_.list, sweep_->label_bits, frame.uniform, block_.list);
     counters.candidates += found_.list.n;
+    if (superset_) prefetch_candidates();
     const int* const label = block_.list.label;
     return images <= 1 || std::adjacent_find(label, label + block_.list.n) == label + block_.list.n;
+}
+
+/// The double predicate will read the caller's arrays at random.
+template <int Dim>
+void GroupWorker<Dim>::prefetch_candidates() const {
+    for (int k = 0; k < block_.list.n; ++k) {
+        const Offset slot = block_.list.label[k];
+        __builtin_prefetch(see_.positions + slot * Dim, 0, 2);
+        if (see_.H == nullptr) continue;
+        __builtin_prefetch(see_.H + slot * n_symmetric(Dim), 0, 2);
+        __builtin_prefetch(see_.H + (slot + 1) * n_symmetric(Dim) - 1, 0, 2);
+    }
 }
 
 template <int Dim>
@@ -221,17 +242,6 @@ void GroupWorker<Dim>::settle_doubts(const int* own, int words, int n_doubts) {
     counters.doubts += n_doubts;
 }
 
-/// Every hit of a float test that only narrows is decided in double.
-template <int Dim>
-void GroupWorker<Dim>::confirm(Slot slot, std::uint64_t* bits, int first_word, int words) const {
-    for (int w = first_word; w < words; ++w)
-        for (std::uint64_t left = bits[w]; left != 0; left &= left - 1) {
-            const int bit = __builtin_ctzll(left);
-            if (!see_(slot, leaf_.list.label[w * word_size + bit], sweep_->mode))
-                bits[w] &= ~(std::uint64_t{1} << bit);
-        }
-}
-
 template <int Dim>
 void GroupWorker<Dim>::keep_row(Slot slot, std::uint64_t* bits, int words, int place,
                                 RowSink::Wanted wanted) {
@@ -240,7 +250,11 @@ void GroupWorker<Dim>::keep_row(Slot slot, std::uint64_t* bits, int words, int p
     bits[own_word] &= ~(std::uint64_t{1} << (place % word_size));
     if (wanted == RowSink::Wanted::later)
         bits[own_word] &= ~std::uint64_t{0} << (place % word_size);
-    if (superset_) confirm(slot, bits, wanted == RowSink::Wanted::all ? 0 : own_word, words);
+    if (superset_) {  // float tests only narrowed
+        const int first = wanted == RowSink::Wanted::all ? 0 : own_word;
+        sweep_->kernels.confirm(predicate_, slot, leaf_.list.label + first * word_size,
+                                words - first, bits + first);
+    }
     sweep_->sink.store(worker_, {slot, bits, leaf_.list.label, words, place});
 }
 

@@ -79,6 +79,15 @@ struct LeafTest {
     bool superset;  ///< report every candidate that may be significant as a bit, and no doubts
 };
 
+/// What the predicate reads: Significance<Dim> without Kokkos. H is null if all nodes are scalar;
+/// a period of 0 is an open axis.
+template <int Dim>
+struct PredicateData {
+    const double *positions, *reach2, *H;
+    double extent2, period[Dim];
+    bool own, others;  ///< whether it counts that a node sees the other, that the other sees it
+};
+
 /// A word with candidates inside the error band.
 struct Doubt {
     int node, word;
@@ -100,6 +109,10 @@ struct Kernels {
     /// bits[node * n_words + word]; returns the number of doubts written.
     int (*test)(const LeafTest<Dim>&, const CandidateList<Dim>&, std::uint64_t* bits,
                 Doubt* doubts);
+    /// Clears the bits of labels that are no neighbours of `slot`. Decides as Significance does,
+    /// bit for bit.
+    void (*confirm)(const PredicateData<Dim>&, int slot, const int* label, int n_words,
+                    std::uint64_t* bits);
     /// Labels whose bit is set, in order; may write 16 beyond. Returns their number.
     int (*expand)(const std::uint64_t* bits, int n_words, const int* label, int* out);
     /// Set bits before position `place`.

@@ -40,6 +40,33 @@ struct Avx2 {
     static unsigned le(D a, D b) {
         return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LE_OQ)));
     }
+    static unsigned equal(D a, D b) {
+        return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_EQ_OQ)));
+    }
+    static D div(D a, D b) { return _mm256_div_pd(a, b); }
+    static D nearest(D a) {
+        return _mm256_round_pd(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+    }
+    /// The columns of four rows of N doubles each, by loads and transpositions.
+    template <int N>
+    static void gather_rows(const double* base, const int* row, D (&column)[N]) {
+        const double* p[4];
+        for (int k = 0; k < 4; ++k) p[k] = base + static_cast<long>(row[k]) * N;
+        for (int c = 0; c + 2 <= N; c += 2) {
+            const __m128d a = _mm_loadu_pd(p[0] + c), b = _mm_loadu_pd(p[1] + c);
+            const __m256d ac = _mm256_insertf128_pd(_mm256_castpd128_pd256(a),
+                                                    _mm_loadu_pd(p[2] + c), 1),
+                          bd = _mm256_insertf128_pd(_mm256_castpd128_pd256(b),
+                                                    _mm_loadu_pd(p[3] + c), 1);
+            column[c] = _mm256_unpacklo_pd(ac, bd);
+            column[c + 1] = _mm256_unpackhi_pd(ac, bd);
+        }
+        if constexpr (N % 2 == 1)
+            column[N - 1] = _mm256_set_pd(p[3][N - 1], p[2][N - 1], p[1][N - 1], p[0][N - 1]);
+    }
+    static std::uint64_t deposit(std::uint64_t bits, std::uint64_t word) {
+        return _pdep_u64(bits, word);
+    }
     static int count(unsigned mask) { return __builtin_popcount(mask); }
     static __m256i lanes_of(unsigned mask) {
         return _mm256_load_si256(reinterpret_cast<const __m256i*>(pack_table.lane[mask]));

@@ -24,7 +24,41 @@ struct Avx512 {
     static D add(D a, D b) { return _mm512_add_pd(a, b); }
     static D mul(D a, D b) { return _mm512_mul_pd(a, b); }
     static D max(D a, D b) { return _mm512_max_pd(a, b); }
+    static D div(D a, D b) { return _mm512_div_pd(a, b); }
+    static D nearest(D a) {
+        return _mm512_roundscale_pd(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+    }
     static unsigned le(D a, D b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
+    static unsigned equal(D a, D b) { return _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ); }
+    /// The columns of eight rows of N doubles each; loads and a transposition are five times as
+    /// fast as gathers here.
+    template <int N>
+    static void gather_rows(const double* base, const int* row, D (&column)[N]) {
+        constexpr __mmask8 all = (1 << N) - 1;
+        D even[4], odd[4];  // columns 0, 2, 4 and 1, 3, 5 of two rows
+        for (int k = 0; k < 4; ++k) {
+            const D a = _mm512_maskz_loadu_pd(all, base + static_cast<long>(row[2 * k]) * N),
+                    b = _mm512_maskz_loadu_pd(all, base + static_cast<long>(row[2 * k + 1]) * N);
+            even[k] = _mm512_unpacklo_pd(a, b);
+            odd[k] = _mm512_unpackhi_pd(a, b);
+        }
+        column[0] = join<0>(even);
+        if constexpr (N > 1) column[1] = join<0>(odd);
+        if constexpr (N > 2) column[2] = join<1>(even);
+        if constexpr (N > 3) column[3] = join<1>(odd);
+        if constexpr (N > 4) column[4] = join<2>(even);
+        if constexpr (N > 5) column[5] = join<2>(odd);
+    }
+    /// Part `Part` (two doubles) of four vectors.
+    template <int Part>
+    static D join(const D (&p)[4]) {
+        constexpr int both = Part * 0x55;
+        return _mm512_shuffle_f64x2(_mm512_shuffle_f64x2(p[0], p[1], both),
+                                    _mm512_shuffle_f64x2(p[2], p[3], both), 0x88);
+    }
+    static std::uint64_t deposit(std::uint64_t bits, std::uint64_t word) {
+        return _pdep_u64(bits, word);
+    }
     static int count(unsigned mask) { return __builtin_popcount(mask); }
     // Compress in a register, then a plain store: the memory form of vpcompressd is slow on Zen 4.
     static void pack(float* to, unsigned mask, F a) {

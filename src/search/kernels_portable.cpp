@@ -36,6 +36,7 @@ struct Portable {
     }
 
     static constexpr int wide_lanes = 1;
+    using D = double;
     static double load_wide(const double* p) { return *p; }
     static double set_wide(double a) { return a; }
     static double sub(double a, double b) { return a - b; }
@@ -43,6 +44,19 @@ struct Portable {
     static double mul(double a, double b) { return a * b; }
     static double max(double a, double b) { return a > b ? a : b; }
     static unsigned le(double a, double b) { return a <= b; }
+    static unsigned equal(double a, double b) { return a == b; }
+    static double div(double a, double b) { return a / b; }
+    static double nearest(double a) { return __builtin_rint(a); }
+    template <int N>
+    static void gather_rows(const double* base, const int* row, double (&column)[N]) {
+        for (int c = 0; c < N; ++c) column[c] = base[static_cast<long>(*row) * N + c];
+    }
+    static std::uint64_t deposit(std::uint64_t bits, std::uint64_t word) {
+        std::uint64_t out = 0;
+        for (; word != 0; word &= word - 1, bits >>= 1)
+            if (bits & 1) out |= word & -word;
+        return out;
+    }
 
     static int count(unsigned mask) { return __builtin_popcount(mask); }
     static void pack(float* to, unsigned mask, F a) {
