@@ -23,6 +23,23 @@ void clear_error() noexcept;
 /// Keeps "function: text" as the error of this thread and returns the status for C.
 conn_status record_error(Status status, const char* function, const char* text) noexcept;
 
+/// The error of this thread as the host words it; at most 2047 bytes are kept.
+void set_error(const char* text) noexcept;
+
+/// While one lives, this thread is inside a callback of the host, from which nothing that takes
+/// the call mutex may be called: the call that waits for the callback holds it.
+class CallbackScope {
+public:
+    CallbackScope() noexcept;
+    ~CallbackScope();
+    CallbackScope(const CallbackScope&) = delete;
+    CallbackScope& operator=(const CallbackScope&) = delete;
+};
+bool in_callback() noexcept;
+
+/// Throws Error{callback} inside a callback.
+void require_no_callback();
+
 /// Held by every call from start to end; also by a fork, so that no child sees an object half-way.
 std::mutex& call_mutex();
 
@@ -31,6 +48,7 @@ template <class Body>
 conn_status guarded(const char* function, const Body& body) noexcept {
     clear_error();
     try {
+        require_no_callback();
         const std::lock_guard lock(call_mutex());
         body();
         return CONN_OK;

@@ -117,12 +117,13 @@ static_assert(CONN_E_SUPPORT == 7 && CONN_E_NOT_SPD == 8 && CONN_E_BOX == 9 &&
 static_assert(CONN_E_TOO_MANY == 11 && CONN_E_MEMORY == 12 && CONN_E_BUDGET == 13);
 static_assert(CONN_E_NOT_BUILT == 14 && CONN_E_STALE == 15 && CONN_E_BUFFER == 16);
 static_assert(CONN_E_FINALIZED == 17 && CONN_E_FORKED == 18 && CONN_E_FILE == 19);
-static_assert(CONN_E_FORMAT == 20 && CONN_E_INTERNAL == -1);
+static_assert(CONN_E_FORMAT == 20 && CONN_E_CALLBACK == 21 && CONN_E_INTERNAL == -1);
 static_assert(CONN_SPACE_HOST == 0 && CONN_SPACE_HOST_PINNED == 1 && CONN_SPACE_DEVICE == 2 &&
               CONN_SPACE_MANAGED == 3);
 static_assert(CONN_FLOAT64 == 0 && CONN_FLOAT32 == 1);
 static_assert(CONN_GATHER == 1 && CONN_SCATTER == 2 && CONN_GATHER_SCATTER == 3);
 static_assert(CONN_METHOD_AUTOMATIC == 0 && CONN_METHOD_BRUTE == 1 && CONN_METHOD_CELLS == 2);
-static_assert(CONN_METHOD_GROUPS == 3 && CONN_PAIRS_EXPAND == 1);
+static_assert(CONN_METHOD_GROUPS == 3 && CONN_PAIRS_EXPAND == 1 && CONN_ROWS == 1 &&
+              CONN_PAIRS == 2);
 
 }  // namespace

@@ -29,6 +29,11 @@ const char* conn_status_text(conn_status status) {
 
 const char* conn_last_error(void) { return last_error(); }
 
+void conn_set_error(const char* text) {
+    if (text == nullptr) return clear_error();
+    set_error(text);
+}
+
 int32_t conn_version(void) { return CONN_VERSION; }
 
 const char* conn_version_string(void) { return CONN_VERSION_STRING; }
@@ -46,6 +51,7 @@ const char* conn_build_info(void) {
 conn_status conn_shutdown(void) {
     clear_error();
     try {
+        require_no_callback();
         stop_runtime();
         return CONN_OK;
     } catch (const Error& e) {

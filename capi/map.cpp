@@ -67,7 +67,20 @@ MapOptions read_options(const conn_map_options* given) {
     return options;
 }
 
-/// Those of the next rebuild.
+const ConnectivityMap& map_of(const conn_map* handle) {
+    return *Registry::instance().get<const conn_map>(handle, "map").map;
+}
+
+void check_capacity(std::int64_t capacity, std::int64_t needed) {
+    if (capacity < needed)
+        throw Error(Status::buffer, "capacity = " + std::to_string(capacity) +
+                                        ", must be at least " + std::to_string(needed));
+}
+
+}  // namespace
+
+namespace connectivity::capi {
+
 MapOptions options_of(const conn_map& map) {
     MapOptions options = map.options;
     if (options.budget.bytes == 0) options.budget.bytes = map.context_budget;
@@ -93,17 +106,7 @@ std::vector<NodeList> read_lists(conn_nodes* const* lists, std::int32_t n_lists)
     return ours;
 }
 
-const ConnectivityMap& map_of(const conn_map* handle) {
-    return *Registry::instance().get<const conn_map>(handle, "map").map;
-}
-
-void check_capacity(std::int64_t capacity, std::int64_t needed) {
-    if (capacity < needed)
-        throw Error(Status::buffer, "capacity = " + std::to_string(capacity) +
-                                        ", must be at least " + std::to_string(needed));
-}
-
-}  // namespace
+}  // namespace connectivity::capi
 
 conn_status conn_map_options_init(conn_map_options* options, size_t size) {
     return guarded(__func__, [&] {

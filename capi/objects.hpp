@@ -45,6 +45,13 @@ struct conn_map final : connectivity::capi::Handle {
 
 namespace connectivity::capi {
 
+/// Options of the next rebuild, the context's budget where the map has none of its own.
+MapOptions options_of(const conn_map& map);
+
+/// The lists of the host, as the C++ side takes them. Throws Error{argument | too_many | null |
+/// handle}.
+std::vector<NodeList> read_lists(conn_nodes* const* lists, std::int32_t n_lists);
+
 /// Owners of acquired views: they hold the storage and the offsets of the lists.
 struct RowsPin final : Handle {
     RowsView<> rows;

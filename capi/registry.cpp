@@ -8,8 +8,13 @@
 namespace connectivity::capi {
 
 namespace {
-void lock_calls() { call_mutex().lock(); }
-void unlock_calls() { call_mutex().unlock(); }
+// A fork inside a callback: the call that waits for it holds the mutex already.
+void lock_calls() {
+    if (!in_callback()) call_mutex().lock();
+}
+void unlock_calls() {
+    if (!in_callback()) call_mutex().unlock();
+}
 
 bool is_forked() {
     try {

@@ -2,6 +2,7 @@
 // Garbage in every argument: any status may come back, but the library stays whole. Pointers are
 // NULL, live, dead or point to enough memory; everything else is random bytes.
 
+#include <algorithm>
 #include <cstring>
 #include <support/random.hpp>
 
@@ -32,10 +33,10 @@ public:
     Fuzz(const Fuzz&) = delete;
     Fuzz& operator=(const Fuzz&) = delete;
 
-    int n_built = 0, n_views = 0;  ///< calls that got through
+    int n_built = 0, n_views = 0, n_traversed = 0;  ///< calls that got through
 
     void call() {
-        switch (random_.below(18)) {
+        switch (random_.below(19)) {
             case 0: return set_h();
             case 1: return set_tensor();
             case 2: return rebuild();
@@ -56,6 +57,7 @@ public:
             case 14: conn_abi_sizeof(static_cast<int>(random_.bits())); return;
             case 15: return init();
             case 16: return needs_rebuild();
+            case 17: return traverse();
             default: return create_map();
         }
     }
@@ -160,6 +162,22 @@ private:
                                random_.chance(0.95) ? &needed : nullptr,
                                random_.chance(0.8) ? &drift : nullptr);
     }
+    void traverse() {
+        conn_nodes* const some[4] = {nodes(), nodes(), nodes(), nodes()};
+        std::int32_t n = random_.chance(0.5) ? 1 : number(), answer = random_.below(20) - 18;
+        if (n > 4 && n < 100000) n = 4;
+        const conn_rows_callback answers = [](void* data, std::int32_t, std::int64_t n_rows,
+                                              const std::int32_t*, const std::int64_t*,
+                                              const std::int32_t*) {
+            EXPECT_GT(n_rows, 0);
+            return std::max(0, *static_cast<const std::int32_t*>(data));
+        };
+        const std::int32_t what = random_.chance(0.7) ? CONN_ROWS + random_.below(2) : number();
+        if (conn_map_traverse(map(), random_.chance(0.95) ? some : nullptr, n, what,
+                              random_.chance(0.95) ? answers : nullptr, &answer) == CONN_OK)
+            ++n_traversed;
+        if (random_.chance(0.1)) conn_set_error(random_.chance(0.5) ? conn_last_error() : nullptr);
+    }
     void set_options() {
         with_struct<conn_map_options>([&](auto* s) {
             if (s != nullptr && random_.chance(0.7)) {
@@ -243,15 +261,17 @@ private:
 };
 
 TEST(CapiFuzz, garbage_never_breaks_the_library) {
-    int n_built = 0, n_views = 0;
+    int n_built = 0, n_views = 0, n_traversed = 0;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         Fuzz fuzz(seed);
         for (int k = 0; k < 2000; ++k) fuzz.call();
         n_built += fuzz.n_built;
         n_views += fuzz.n_views;
+        n_traversed += fuzz.n_traversed;
     }
     EXPECT_GT(n_built, 50) << "too much of the garbage was refused at the door";
     EXPECT_GT(n_views, 50);
+    EXPECT_GT(n_traversed, 50);
     const NodeSet set = random_nodes(3, 100, 1);
     EXPECT_EQ(lists_of(Context(), 3, {set}), brute_force(3, {set}));
 }

@@ -31,6 +31,7 @@
     X(E_FORKED, forked, 18, "the process was forked after the library started its threads")    \
     X(E_FILE, file, 19, "a file could not be opened, read or written")                         \
     X(E_FORMAT, format, 20, "a file is not of a known format or lacks a required part")        \
+    X(E_CALLBACK, callback, 21, "the host's callback stopped the call, or called the library") \
     X(E_INTERNAL, internal, -1, "internal error: please report it")
 
 #endif
