@@ -88,7 +88,8 @@ void GroupSearch<Dim>::visit(const SearchNodes<Dim>& nodes, const SlotLayout& la
                              const SearchRequest& request, RowFunction f) {
     const Kernels<Dim>& table = kernels<Dim>();
     reserve_workers();
-    RowVisitor visitor(layout, !request.rows, {table.expand, table.count}, f);
+    const BitKernels bits{table.expand, table.count};
+    RowVisitor visitor(layout, !request.rows, bits, f);
     sweep({nodes, order_, boxes_, table, request.mode, bits_for(nodes.n), visitor}, 1);
 }
 
@@ -97,7 +98,8 @@ void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layo
                            const SearchRequest& request, Products products, Report& report) {
     const Kernels<Dim>& table = kernels<Dim>();
     reserve_workers();
-    store_.begin(layout, request.rows, request.half_rows, {table.expand, table.count});
+    const BitKernels bits{table.expand, table.count};  // nvcc takes no braces below
+    store_.begin(layout, request.rows, request.half_rows, bits);
     const GroupSweep<Dim> shared{nodes, order_, boxes_, table, request.mode, bits_for(nodes.n),
                                  store_};
     find_rows(shared, layout, request, products);

@@ -40,6 +40,7 @@ struct SearchNodes {
 /// The predicate on raw pointers, for kernels in any memory space.
 template <int Dim>
 struct Significance {
+    static constexpr int n_H = n_symmetric(Dim);  // a constant, since kernels cannot call it
     const double* positions;
     const double* reach2;
     const double* H;  ///< nullptr if all nodes are scalar
@@ -62,7 +63,7 @@ struct Significance {
 
     /// |H_i r|², components of H·r summed in the order of the axes.
     KOKKOS_INLINE_FUNCTION double eta2(Offset i, const double (&r)[Dim]) const {
-        const double* h = H + i * n_symmetric(Dim);
+        const double* h = H + i * n_H;
         double e[Dim];
         if constexpr (Dim == 1) {
             e[0] = h[0] * r[0];
@@ -78,7 +79,7 @@ struct Significance {
     }
 
     KOKKOS_INLINE_FUNCTION bool is_tensor(Offset i) const {
-        return H != nullptr && H[i * n_symmetric(Dim)] != 0.0;
+        return H != nullptr && H[i * n_H] != 0.0;
     }
 
     /// Does i see a point at difference r, |r|² = r2?
