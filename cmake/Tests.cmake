@@ -56,6 +56,15 @@ function(connectivity_test folder)
         $<TARGET_NAME_IF_EXISTS:connectivity_test_support> connectivity_static GTest::gtest_main)
     gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${folder}/"
         PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600 ENVIRONMENT "${CONNECTIVITY_TEST_ENVIRONMENT}")
+    # Once more with the narrower kernels, in one process each.
+    if(folder MATCHES "^(search|map|stability)$")
+        foreach(isa IN ITEMS avx2 portable)
+            add_test(NAME ${folder}/all_with_${isa}_kernels
+                COMMAND ${target} --gtest_brief=1 --gtest_filter=-SameBits.*)
+            set_tests_properties(${folder}/all_with_${isa}_kernels PROPERTIES LABELS slow TIMEOUT 1200
+                ENVIRONMENT "${CONNECTIVITY_TEST_ENVIRONMENT};CONNECTIVITY_ISA=${isa}")
+        endforeach()
+    endif()
 endfunction()
 
 file(GLOB folders LIST_DIRECTORIES true CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/*")
