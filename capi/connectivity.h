@@ -337,11 +337,11 @@ enum {
 
 /** Receives a block of n_rows rows: the neighbours of node slots[r] are
  * neighbours[offsets[r] .. offsets[r+1]), ascending; offsets[0] is 0; neighbours may be NULL where
- * no row has any. The arrays are the library's, valid during the call only. worker, at least 0 and less than conn_context_threads(), tells calls
- * apart that run at the same time: memory per worker needs no lock. A result other than 0 stops the
- * traversal. The callback must not throw, jump out, or fork; nor call this library but for
- * conn_set_error, conn_last_error, texts and versions (CONN_E_CALLBACK); nor wait for a thread that
- * does. */
+ * no row has any. The arrays are the library's, valid during the call only. worker, at least 0 and
+ * less than conn_context_threads(), tells calls apart that run at the same time: memory per worker
+ * needs no lock. A result other than 0 stops the traversal. The callback must not throw, jump out,
+ * or fork; nor call this library but for conn_set_error, conn_last_error, texts and versions
+ * (CONN_E_CALLBACK); nor wait for a thread that does. */
 typedef int32_t (*conn_rows_callback)(void* user_data, int32_t worker, int64_t n_rows,
                                       const int32_t* slots, const int64_t* offsets,
                                       const int32_t* neighbours);
