@@ -4,7 +4,6 @@
 ///
 /// Invariant: the callable outlives the reference. Cost: one indirect call a row.
 
-#include <concepts>
 #include <exception>
 #include <memory>
 #include <span>
@@ -18,10 +17,11 @@ namespace connectivity {
 /// during the call only.
 class RowFunction {
 public:
-    template <class F>
-    requires(!std::same_as<std::remove_cvref_t<F>, RowFunction> &&
-             std::is_object_v<std::remove_reference_t<F>> &&
-             std::invocable<F&, int, Slot, std::span<const Slot>>) RowFunction(F&& f)
+    template <class F,
+              class = std::enable_if_t<!std::is_same_v<std::remove_cvref_t<F>, RowFunction> &&
+                                       std::is_object_v<std::remove_reference_t<F>> &&
+                                       std::is_invocable_v<F&, int, Slot, std::span<const Slot>>>>
+    RowFunction(F&& f)
         : object_(const_cast<void*>(static_cast<const void*>(std::addressof(f)))),
           call_([](void* object, int worker, Slot slot, std::span<const Slot> neighbours) {
               (*static_cast<std::remove_reference_t<F>*>(object))(worker, slot, neighbours);
