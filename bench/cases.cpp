@@ -5,14 +5,13 @@
 #include <regex>
 
 #include "contestants.hpp"
+#include "host_step.hpp"
 #include "yardstick.hpp"
 
 namespace connectivity::bench {
 namespace {
 
 using Names = std::vector<std::string>;
-
-bool is_step(const std::string& variant) { return variant == "step" || variant == "reordered"; }
 
 /// Adds a group for both numbers of threads: all contestants, then variants of ours.
 void add(std::vector<CaseName>& cases, CaseName c, const Names& forms, const Names& variants) {
@@ -30,7 +29,7 @@ void add(std::vector<CaseName>& cases, CaseName c, const Names& forms, const Nam
             c.who = "ours";
             for (const std::string& variant : variants) {
                 c.variant = variant;
-                if (form == "pairs" || !is_step(variant)) cases.push_back(c);
+                if (form == "pairs" || !is_host_step(variant)) cases.push_back(c);
             }
         }
 }
@@ -43,6 +42,7 @@ CaseName named(const std::string& workload, const std::string& size = "", bool f
 
 const Names all_forms = {"rows", "pairs", "both"};
 const Names methods = {"brute", "cells", "groups"};
+const Names skins = {"skin0", "skin0.05", "skin0.1", "skin0.2", "skin0.3", "skin0.5"};
 
 void add_sizes(std::vector<CaseName>& cases, const std::string& workload) {
     for (const std::string size : {"1e3", "1e4", "3e4", "1e5", "3e5", "1e6", "4e6"}) {
@@ -53,6 +53,9 @@ void add_sizes(std::vector<CaseName>& cases, const std::string& workload) {
             if (workload == "W1" || workload == "W3")
                 variants.insert(variants.end(), {"3lists", "tensor", "step", "reordered"});
         }
+        if ((workload == "W1" || workload == "W3" || workload == "W7") &&
+            (size == "1e3" || size == "1e4" || size == "1e5"))
+            variants.insert(variants.end(), skins.begin(), skins.end());
         add(cases, named(workload, size), all_forms, variants);
     }
 }

@@ -4,7 +4,7 @@
 
     python3 bench/charts.py record.json [more.json ...] --out DIR
 
-P7 time per node against size, P8 search methods on hard scenes, P17 price of checking the input, P18 small builds.
+P7 time per node against size, P8 search methods on hard scenes, P9 reuse of pairs with a skin, P17 price of checking the input, P18 small builds.
 """
 
 import argparse
@@ -39,14 +39,15 @@ class Chart:
         pyplot.close(figure)
         self.path.with_suffix(".txt").write_text(caption + "\n", encoding="utf-8")
 
-    def lines(self, curves, labels, caption, log_y=True):
+    def lines(self, curves, labels, caption, log_y=True, log_x=True):
         """curves: {legend: [(x, y), ...]}"""
         if pyplot is None or not curves:
             return
         figure, axes = pyplot.subplots(figsize=(7, 4.8))
         for (legend, points), marker in zip(curves.items(), "osv^D<>ph*dXP+x1234" * 9):
             axes.plot(*zip(*points), marker=marker, markersize=4, linewidth=1, label=legend)
-        axes.set_xscale("log")
+        if log_x:
+            axes.set_xscale("log")
         if log_y:
             axes.set_yscale("log")
         axes.set_xlabel(labels[0])
@@ -140,6 +141,25 @@ def hard_scenes(cases, out):
         f"{heights[worst]['automatic']:.2f} times (1.2 allowed); cells fail on wide ranges of supports."))
 
 
+def reuse(cases, out):
+    """Steps of a host that rebuilds only where it must, relative to a rebuild each step (skin 0)."""
+    rows, curves = [], {}
+    for case, runs in cases.items():
+        base = cases.get(case._replace(variant="skin0"))
+        if case.variant.startswith("skin") and base:
+            skin, ratio = float(case.variant[4:]), runs.ms() / base.ms()
+            rows.append([case.workload, case.threads, runs.get("nodes"), skin, runs.ms(), ratio, runs.get("rebuilds")])
+            curves.setdefault(f"{case.workload}@{case.size}, {case.threads} threads", []).append((skin, ratio))
+    chart = Chart(out, "P9_reuse", ["workload", "threads", "nodes", "skin_over_support", "ms_per_step", "over_skin_0",
+                                    "rebuilds_per_100_steps"], rows)
+    best = min(rows, key=lambda row: row[5], default=None)
+    chart.lines({name: sorted(points) for name, points in curves.items()},
+                ("skin / mean support", "time of a step / the same without skin"), best and (
+        "P9: step of a host (move, ask, rebuild pairs if told, sum densities), mean of 100, nodes 0.005 of the mean "
+        f"support a step; fastest on {best[0]} with a skin of {best[3]:g}: {best[5]:.2f} times, {best[6]:.0f} rebuilds; "
+        "pairs within the support at the end are those of the definition for all skins."), False, False)
+
+
 def price_of_checks(cases, out):
     curves = curves_of(cases, lambda runs: runs.get("check_percent"),
                        lambda case: case.who == "ours" and is_plain(case) and case.form == "rows" and case.threads == 2)
@@ -168,7 +188,7 @@ def main():
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     _, cases = read(arguments.records)
-    for chart in (time_per_node, hard_scenes, price_of_checks, small_builds):
+    for chart in (time_per_node, hard_scenes, reuse, price_of_checks, small_builds):
         chart(cases, arguments.out)
     print(f"{arguments.out}: " + ("CSV and PNG" if pyplot else "CSV only, matplotlib (python3-matplotlib) is missing"))
 

@@ -130,8 +130,7 @@ bool nanoflann_takes_part(const std::string& workload, const std::string& form) 
 std::unique_ptr<Contestant> make_contestant(const std::string& who, const std::string& variant,
                                             const Input& input, Form form) {
     start_runtime();
-    if (variant == "step" || variant == "reordered")
-        return make_host_step(input, variant == "reordered");
+    if (is_host_step(variant)) return make_host_step(input, variant);
     if (who == "ours") return std::make_unique<Ours>(input, form, variant);
 #if defined(CONNECTIVITY_BENCH_NANOFLANN)
     if (who == "nanoflann") return make_nanoflann(input, form);

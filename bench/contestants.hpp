@@ -47,6 +47,8 @@ public:
     /// Whether the lists name exactly these (ascending) neighbours; who cannot tell agrees.
     virtual bool agrees(Offset, const std::vector<Offset>&) const { return true; }
     virtual double check_ms() const { return 0; }  ///< of the last build: reading, checking input
+    virtual int n_steps() const { return 1; }      ///< of a host, that a build takes
+    virtual int n_rebuilds() const { return 1; }   ///< in these
 };
 
 /// "ours", and "nanoflann" where it was found.

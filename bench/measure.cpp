@@ -14,6 +14,7 @@
 #include <support/process.hpp>
 #include <support/random.hpp>
 
+#include "host_step.hpp"
 #include "memory_speed.hpp"
 #include "reference.hpp"
 
@@ -126,16 +127,18 @@ bool check(std::vector<Entry>& entries, const Input& input, Job job) {
 using Clock = std::chrono::steady_clock;
 
 void run(benchmark::State& state, Entry& entry, const Input& input, const MemorySpeed& speed) {
-    double sum = 0, check_ms = 0;
+    double sum = 0, check_ms = 0, n_rebuilds = 0;
     for (auto _ : state) {
         if (entry.name.first) entry.remake(input);
         entry.move(input);
         const auto start = Clock::now();
         entry.contestant->build();
-        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count() /
+                               entry.contestant->n_steps();
         state.SetIterationTime(seconds);
         sum += seconds;
         check_ms += entry.contestant->check_ms();
+        n_rebuilds += entry.contestant->n_rebuilds();
         if (entry.name.first) entry.contestant.reset();
     }
     const double build = sum / static_cast<double>(state.iterations());
@@ -152,6 +155,8 @@ void run(benchmark::State& state, Entry& entry, const Input& input, const Memory
     counters["store_GBps"] = speed.store / 1e9;
     counters["touch_GBps"] = speed.touch / 1e9;
     counters["touch_large_GBps"] = speed.touch_large / 1e9;
+    if (is_walk(entry.name.variant))
+        counters["rebuilds"] = n_rebuilds / static_cast<double>(state.iterations());
     if (check_ms > 0) counters["check_percent"] = 100 * check_ms / (1e3 * sum);
 }
 
@@ -172,13 +177,13 @@ std::string cpu() {
     return "unknown processor";
 }
 
-/// A reporter that leaves "/manual_time" out of the names.
+/// A reporter that leaves "/iterations:1" and "/manual_time" out of the names.
 template <class Reporter>
 class PlainNames final : public Reporter {
 public:
     void ReportRuns(const std::vector<benchmark::BenchmarkReporter::Run>& reported) override {
         auto runs = reported;
-        for (auto& run : runs) run.run_name.time_type.clear();
+        for (auto& run : runs) run.run_name.time_type.clear(), run.run_name.iterations.clear();
         Reporter::ReportRuns(runs);
     }
 };
@@ -202,12 +207,13 @@ int measure(const Job& job) {
     benchmark::AddCustomContext("connectivity", runtime_description());
     benchmark::AddCustomContext("compiler", compiler());
     benchmark::AddCustomContext("cpu", cpu());
-    for (Entry& entry : entries)
-        benchmark::RegisterBenchmark(
+    for (Entry& entry : entries) {
+        auto* const registered = benchmark::RegisterBenchmark(
             entry.name.name().c_str(),
-            [&entry, &input, &speed](benchmark::State& state) { run(state, entry, input, speed); })
-            ->Unit(benchmark::kMillisecond)
-            ->UseManualTime();
+            [&entry, &input, &speed](benchmark::State& state) { run(state, entry, input, speed); });
+        registered->Unit(benchmark::kMillisecond)->UseManualTime();
+        if (is_walk(entry.name.variant)) registered->Iterations(1);  // a walk is 100 steps
+    }
     PlainNames<benchmark::ConsoleReporter> console;
     PlainNames<benchmark::JSONReporter> record;
     benchmark::RunSpecifiedBenchmarks(&console, &record);

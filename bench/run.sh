@@ -17,12 +17,13 @@ any='^[a-z]+'
 standard="$any/W[1-7]/(rows|pairs|both)/[12](/(3lists|tensor|step|reordered))?\$|^(ours|yardstick)/W[1-7]/[a-z]+/[12]/first"
 sizes='^ours/W[1-7]/(rows|pairs)/2/[134]e[3-6]$'
 hard="$any/A[0-9a-z]+/rows/2|^ours/W[1-7]/rows/2/1e4"
+reuse='^ours/W1/pairs/2/1e4-skin'
 small="$any/W1/rows/[12]/(1|10|100|1e3|1e4)(-(brute|groups))?\$"
-filter="$standard|$sizes|$hard|$small" options=
+filter="$standard|$sizes|$hard|$small|$reuse" options=
 while [ $# -gt 0 ]; do
     case $1 in
     --quick)
-        filter="$any/W[1-7]/(rows|pairs)/2/(1e4|1e5)\$|$any/W2/(rows|pairs)/2\$|$hard|$small"
+        filter="$any/W[1-7]/(rows|pairs)/2/(1e4|1e5)\$|$any/W2/(rows|pairs)/2\$|$hard|$small|$reuse"
         options="--benchmark_repetitions=3 --benchmark_min_time=0.05" ;;
     --tiny)
         filter="$any/W[13467]/rows/2/1e3|^ours/W[13]/both/2/1e3|^ours/W1/pairs/2/1e3|^ours/W1/rows/[12]/100|$any/A(4|8|10)/rows/2"

@@ -20,7 +20,7 @@ if(support)
     set_target_properties(connectivity_test_support PROPERTIES POSITION_INDEPENDENT_CODE OFF)
 endif()
 
-# Tests run side by side: threads that wait must not spin.
+# Tests run side by side: threads that wait must not spin, and a test counts as two processors.
 set(CONNECTIVITY_TEST_ENVIRONMENT OMP_PROC_BIND=false OMP_WAIT_POLICY=passive)
 if(CONNECTIVITY_SANITIZE)
     list(APPEND CONNECTIVITY_TEST_ENVIRONMENT
@@ -55,7 +55,8 @@ function(connectivity_test folder)
     target_link_libraries(${target} PRIVATE
         $<TARGET_NAME_IF_EXISTS:connectivity_test_support> connectivity_static GTest::gtest_main)
     gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${folder}/"
-        PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600 ENVIRONMENT "${CONNECTIVITY_TEST_ENVIRONMENT}")
+        PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600 PROCESSORS 2
+        ENVIRONMENT "${CONNECTIVITY_TEST_ENVIRONMENT}")
     # Once more with the narrower kernels, in one process each.
     if(folder MATCHES "^(search|map|stability)$")
         foreach(isa IN ITEMS avx2 portable)
