@@ -84,11 +84,13 @@ bool count_agrees(const Entry& entry, std::vector<Offset>& n_pairs) {
     return false;
 }
 
-/// Ours in every state; peers, which the counts come from, in the first two.
+/// Ours in every state; peers, which the counts come from, and walks, which are long, in the first
+/// two.
 bool check(Entry& entry, const Input& input, std::vector<Offset>& n_pairs) {
     build_and_weigh(entry, input);
     bool good = count_agrees(entry, n_pairs) && sample_agrees(entry, input);
-    const int n_checked = entry.name.who == "ours" ? std::max(2, input.n_moved()) : 1;
+    const bool all = entry.name.who == "ours" && !is_walk(entry.name.variant);
+    const int n_checked = all ? std::max(2, input.n_moved()) : 1;
     for (int k = 0; good && k < n_checked; ++k) {
         entry.move(input);
         entry.contestant->build();
