@@ -158,8 +158,8 @@ CONN_API conn_status conn_context_threads(const conn_context* context, int32_t* 
 /**@{*/
 typedef struct conn_nodes conn_nodes;
 
-/** A list without nodes. name: 1 to 255 bytes. dim: 1, 2 or 3. kernel_extent > 0: the eta at which
- * the kernel ends; the support radius is kernel_extent * h. */
+/** A list without nodes. name: 1 to 255 bytes. dim: 1, 2 or 3. kernel_extent in [1e-100, 1e100]:
+ * the eta at which the kernel ends; the support radius is kernel_extent * h. */
 CONN_API conn_status conn_nodes_create(conn_context* context, const char* name, int32_t dim,
                                        double kernel_extent, conn_nodes** nodes);
 CONN_API conn_status conn_nodes_destroy(conn_nodes** nodes);

@@ -51,6 +51,7 @@ conn_status guarded(const char* function, const Body& body) noexcept {
         require_no_callback();
         const std::lock_guard lock(call_mutex());
         body();
+        clear_error();  // a callback may have left one
         return CONN_OK;
     } catch (const Error& e) {
         return record_error(e.status(), function, e.what());

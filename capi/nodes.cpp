@@ -65,9 +65,7 @@ conn_status conn_nodes_create(conn_context* context, const char* name, int32_t d
         made->name = read_name(name);
         if (dim < 1 || dim > 3)
             throw Error(Status::argument, "dim = " + std::to_string(dim) + ", must be 1, 2 or 3");
-        if (!std::isfinite(kernel_extent) || kernel_extent <= 0)
-            throw Error(Status::argument, "kernel_extent = " + std::to_string(kernel_extent) +
-                                              ", must be > 0 and finite");
+        check_kernel_extent(made->name, kernel_extent);
         made->dim = dim;
         made->kernel_extent = kernel_extent;
         *nodes = Registry::instance().add(std::move(made));

@@ -64,7 +64,7 @@ private:
             return callback_(user_data_, worker, n_rows, block.slots.data(), block.offsets.data(),
                              block.neighbours.data());
         }();
-        if (answer == 0) return;
+        if (answer == 0) return clear_error();
         stopped_ = true;
         const std::string said = last_error();
         throw Error(Status::callback, "the callback returned " + std::to_string(answer) +

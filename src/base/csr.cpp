@@ -10,7 +10,7 @@ ConstView<Offset> Csr::offsets() const {
 
 Offset Csr::bytes() const {
     return static_cast<Offset>((offsets_.size() + spare_.size()) * sizeof(Offset) +
-                               values_.size() * sizeof(Slot));
+                               (values_.size() + grown_.size()) * sizeof(Slot));
 }
 
 void Csr::take_spare(Offset n_rows) {
@@ -43,6 +43,11 @@ void Csr::publish() {
     std::swap(offsets_, spare_);
     n_rows_ = pending_rows_;
     n_values_ = pending_values_;
+}
+
+void Csr::abandon() {
+    grown_ = {};
+    pending_rows_ = pending_values_ = 0;
 }
 
 void Csr::clear() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <connectivity/base/error.hpp>
 
+#include <cstdio>
+
 namespace connectivity {
 
 const char* status_text(Status status) noexcept {
@@ -11,6 +13,12 @@ const char* status_text(Status status) noexcept {
 #undef CONN_STATUS_CASE
     }
     return "unknown status";
+}
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
 }
 
 }  // namespace connectivity

@@ -2,6 +2,7 @@
 #include <connectivity/base/spaces.hpp>
 
 #include <cstdint>
+#include <string_view>
 
 #include <connectivity/base/budget.hpp>
 
@@ -26,8 +27,10 @@ void advise_huge_pages(void* data, std::size_t bytes) noexcept {
 
 void throw_allocation_failed(const std::string& label, Offset n, std::size_t size,
                              const char* why) {
+    const std::string_view reason(why);  // Kokkos adds lines of advice
     throw Error(Status::memory, "allocation of \"" + label + "\" failed: " + std::to_string(n) +
-                                    " elements of " + std::to_string(size) + " bytes: " + why);
+                                    " elements of " + std::to_string(size) +
+                                    " bytes: " + std::string(reason.substr(0, reason.find('\n'))));
 }
 
 }  // namespace connectivity::detail

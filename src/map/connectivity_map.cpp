@@ -56,10 +56,22 @@ void check_request(const std::string& call, std::span<const NodeList> lists,
         throw Error(Status::argument, call + ": budget of " + std::to_string(options.budget.bytes) +
                                           " bytes, must be >= 0");
     if (options.skin != 0 && !(options.skin >= 1e-100 && options.skin <= 1e100))
-        throw Error(Status::argument, call + ": skin = " + std::to_string(options.skin) +
+        throw Error(Status::argument, call + ": skin = " + number(options.skin) +
                                           ", must be 0 or in [1e-100, 1e100]");
     options.domain.check(lists[0].dim());
 }
+
+/// True while it lives.
+class Traversing {
+public:
+    explicit Traversing(bool& flag) : flag_(flag) { flag_ = true; }
+    ~Traversing() { flag_ = false; }
+    Traversing(const Traversing&) = delete;
+    Traversing& operator=(const Traversing&) = delete;
+
+private:
+    bool& flag_;
+};
 
 SlotLayout layout_of(std::span<const NodeList> lists, bool ghost_rows) {
     std::vector<ListSize> sizes;
@@ -69,18 +81,32 @@ SlotLayout layout_of(std::span<const NodeList> lists, bool ghost_rows) {
 
 }  // namespace
 
+/// Runs body() where Kokkos may launch kernels, also for a caller inside an OpenMP region. Throws
+/// Error{callback} inside a traversal of this map, which uses the threads.
+template <class Body>
+void ConnectivityMap::launch(const char* what, const Body& body) const {
+    if (traversing_)
+        throw Error(Status::callback,
+                    std::string(what) + ": called from the function of a traversal of this map");
+    shim::outside_parallel_region([&] {
+        start_runtime();
+        try {
+            body();
+        } catch (const std::bad_alloc&) {
+            throw Error(Status::memory, std::string(what) + ": out of memory");
+        }
+    });
+}
+
 void ConnectivityMap::rebuild(std::span<const NodeList> lists, const MapOptions& options) {
-    start_runtime();
     check_request("rebuild", lists, options);
-    try {
+    launch("rebuild", [&] {
         switch (lists[0].dim()) {
             case 1: return rebuild_in<1>(lists, options);
             case 2: return rebuild_in<2>(lists, options);
             default: return rebuild_in<3>(lists, options);
         }
-    } catch (const std::bad_alloc&) {
-        throw Error(Status::memory, "rebuild: out of memory");
-    }
+    });
 }
 
 template <int Dim>
@@ -145,18 +171,18 @@ void ConnectivityMap::for_each_half_row(std::span<const NodeList> lists, const M
 
 void ConnectivityMap::traverse(std::span<const NodeList> lists, const MapOptions& options,
                                RowFunction f) {
-    start_runtime();
-    const shim::ProfilingRegion region("map/traverse");
     try {
-        switch (lists[0].dim()) {
-            case 1: return traverse_in<1>(lists, options, f);
-            case 2: return traverse_in<2>(lists, options, f);
-            default: return traverse_in<3>(lists, options, f);
-        }
+        launch("traversal", [&] {
+            const shim::ProfilingRegion region("map/traverse");
+            const Traversing traversing(traversing_);
+            switch (lists[0].dim()) {
+                case 1: return traverse_in<1>(lists, options, f);
+                case 2: return traverse_in<2>(lists, options, f);
+                default: return traverse_in<3>(lists, options, f);
+            }
+        });
     } catch (const HostException& e) {
         std::rethrow_exception(e.cause);
-    } catch (const std::bad_alloc&) {
-        throw Error(Status::memory, "traversal: out of memory");
     }
 }
 
@@ -217,8 +243,9 @@ void ConnectivityMap::count_reuse(Report& report) const {
 
 double ConnectivityMap::drift(std::span<const NodeList> lists) const {
     if (generation_ == 0 || options_.skin == 0) return std::numeric_limits<double>::infinity();
-    start_runtime();
-    return impl_->reference.drift(lists);
+    double drift = 0;
+    launch("drift", [&] { drift = impl_->reference.drift(lists); });
+    return drift;
 }
 
 bool ConnectivityMap::needs_rebuild(std::span<const NodeList> lists, double* drift) {

@@ -25,10 +25,13 @@ void NodeList::check_shape(const char* support_name, Offset n_support, Offset pe
     if (n_internal_ < 0 || n_internal_ > n_coordinates / dim_)
         refuse(name_, "n_internal = " + std::to_string(n_internal_) + ", must be in [0, " +
                           std::to_string(n_coordinates / dim_) + "]");
-    if (!(kernel_extent_ >= 1e-100 &&
-          kernel_extent_ <= 1e100))  // its square must be a normal number
-        refuse(name_, "kernel_extent = " + std::to_string(kernel_extent_) +
-                          ", must be > 0 and finite, in [1e-100, 1e100]");
+    check_kernel_extent(name_, kernel_extent_);
+}
+
+void check_kernel_extent(const std::string& name, double kernel_extent) {
+    if (!(kernel_extent >= 1e-100 && kernel_extent <= 1e100))  // its square must be normal
+        refuse(name, "kernel_extent = " + number(kernel_extent) +
+                         ", must be > 0 and finite, in [1e-100, 1e100]");
 }
 
 NodeList NodeList::with_h(std::string name, int dim, Offset n_internal, ConstView<double> positions,

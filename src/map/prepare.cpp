@@ -94,12 +94,6 @@ Offset check_list(const ListReader<Dim>& read, Offset n, double* reach2) {
     return first < n ? first : n;
 }
 
-std::string number(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.17g", value);
-    return text.data();
-}
-
 template <int Dim>
 std::string describe_tensor(const double* tensor) {
     std::string text = "H = (";
@@ -137,7 +131,10 @@ template <int Dim>
     } else {
         status = Status::half_box;
         int d = 0;
-        while (read.width(node, d) <= read.half_length[d]) ++d;
+        while (d < Dim && read.width(node, d) <= read.half_length[d]) ++d;
+        if (fault == Fault::none || d == Dim)
+            throw Error(Status::internal,
+                        text + "was refused and is legal now: did it change during the call?");
         text += (read.h != nullptr ? "support radius " : "half width of the support ") +
                 number(read.width(node, d)) + " is larger than half the length of periodic axis " +
                 std::to_string(d) + ", " + number(read.half_length[d]);

@@ -52,7 +52,7 @@ Cells<Dim>::Cells(const SearchNodes<Dim>& nodes) : positions_(nodes.positions.da
         width_ = std::max(width_, wraps ? box[d].magnitude * 0x1p-29
                                         : (0.5 * box[d].hi - 0.5 * box[d].lo) * 0x1p-28);
     }
-    width_ = std::max(width_, 0x1p-536);  // below it r² underflows to 0, which any reach covers
+    width_ = std::max(width_, 0x1p-500);  // below it r² is subnormal and loses its digits
     for (int d = 0; d < Dim && nodes.n > 0; ++d) {
         period_[d] = nodes.periods.length[d];
         origin_[d] = box[d].lo;

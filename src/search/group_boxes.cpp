@@ -37,7 +37,8 @@ void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrde
                 nodes.periods.any ? folded(nodes, slot[k], d)
                                   : positions[static_cast<Offset>(slot[k]) * Dim + d];
         const double r2 = reach2 != nullptr ? reach2[slot[k]] : common_reach2_;
-        data[Dim * leaf_size + k] = r2;
+        // No unit may turn "sees nobody" into a threshold of zero.
+        data[Dim * leaf_size + k] = r2 < 0 ? -std::numeric_limits<double>::infinity() : r2;
         box.add(x, r2);
     }
     leaves_(leaf) = box;

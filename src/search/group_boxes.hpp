@@ -96,7 +96,7 @@ private:
     void store_bounds(Offset leaf, const ReachBox<Dim>& box);
     double spread_of(const ReachBox<Dim>& block) const;
 
-    View<double> data_;           // by leaf: x[Dim][16], reach²[16]
+    View<double> data_;           // by leaf: x[Dim][16], reach²[16] (-infinity: blind)
     View<ReachBox<Dim>> leaves_;  // [n_leaves]
     View<double> bounds_;         // the same, as vector kernels read them
     Offset bounds_stride_ = 0;

@@ -45,6 +45,7 @@ void GroupSearch<Dim>::sweep(const GroupSweep<Dim>& shared, Offset stride) {
         try {
             workers_[worker].process(shared, worker, order_.block_leaf[b],
                                      order_.block_leaf[b + 1]);
+            finish_streams();
         } catch (...) {
             first.keep();
         }
@@ -119,8 +120,10 @@ void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout
     const Offset expected =
         (entries_before_ >= 0 ? entries_before_ : estimate_entries(shared)) * Offset{sizeof(Slot)};
     const bool surely_fits = expected < slack / 4 || request.budget.allows(4 * expected);
+    // Chunks double: each worker may hold twice its rows and the first chunk.
+    const Offset room = 3 * expected + slack + n_workers() * RowArena::smallest_bytes;
     try {
-        store_.begin_sweep(surely_fits ? 2 * expected + slack : 0, expected);
+        store_.begin_sweep(surely_fits ? room : 0, expected);
         sweep_into_store(shared, 1);
         const Offset result = products.prepare(store_.counts(), layout, request.budget);
         if (!store_.only_counted()) return;
@@ -132,6 +135,7 @@ void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout
                                             " while it runs, the memory that is free, beside the " +
                                             human_bytes(result) + " of its result");
     } catch (...) {
+        products.abandon();
         store_.release();
         throw;
     }

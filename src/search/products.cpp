@@ -40,6 +40,11 @@ void throw_over_budget(const Counts& counts, const SlotLayout& layout, Offset ne
                                     std::to_string(most));
 }
 
+void Products::abandon() {
+    rows.abandon();
+    halves.abandon();
+}
+
 Offset Products::prepare(const Counts& counts, const SlotLayout& layout, const Budget& budget) {
     Offset needed = 0;
     if (counts.has_rows)
@@ -48,8 +53,13 @@ Offset Products::prepare(const Counts& counts, const SlotLayout& layout, const B
     if (counts.has_halves)
         needed += halves.prepare(layout.n_slots(), [c = counts.halves](Offset i) { return c[i]; });
     if (!budget.allows(needed)) throw_over_budget(counts, layout, needed, budget.allowed());
-    if (counts.has_rows) rows.reserve();
-    if (counts.has_halves) halves.reserve();
+    try {
+        if (counts.has_rows) rows.reserve();
+        if (counts.has_halves) halves.reserve();
+    } catch (...) {
+        abandon();
+        throw;
+    }
     return needed;
 }
 

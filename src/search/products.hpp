@@ -33,6 +33,9 @@ struct Products {
     /// Offsets, budget check, storage; returns the bytes that the lists take. Throws
     /// Error{budget | memory}; the lists are as before.
     Offset prepare(const Counts& counts, const SlotLayout& layout, const Budget& budget);
+
+    /// After a failure: gives back what was prepared.
+    void abandon();
 };
 
 /// Throws Error{budget}: bytes needed and allowed, number of entries, and the node with most

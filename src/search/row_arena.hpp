@@ -24,6 +24,8 @@ namespace connectivity::detail {
 
 class RowArena {
 public:
+    static constexpr Offset smallest_bytes = Offset{1} << 20;  ///< once it holds a row
+
     /// Forgets all rows, keeps the chunks.
     void reset(bool past_caches) {
         chunk_ = 0, top_ = 0, staged_ = 0, n_used_ = 0;
@@ -56,7 +58,8 @@ public:
         return place;
     }
 
-    /// Moves everything staged to its place, visible to other threads.
+    /// Moves everything staged to its place. What a worker streamed before, it has to finish
+    /// itself.
     void flush() {
         move(staged_);
         finish_streams();
@@ -70,7 +73,8 @@ public:
 
 private:
     static constexpr Offset staging_size = 1024;
-    static constexpr Offset smallest_chunk = Offset{1} << 18, largest_chunk = Offset{1} << 24;
+    static constexpr Offset smallest_chunk = smallest_bytes / Offset{sizeof(Slot)},
+                            largest_chunk = Offset{1} << 24;
 
     Offset size(std::size_t chunk) const { return static_cast<Offset>(chunks_[chunk].size()); }
 

@@ -148,6 +148,17 @@ void give_supports(Random& random, const Scene& s, const Case& c, double K, List
     }
 }
 
+/// All lengths times 2^exponent: nothing else changes, not even a bit.
+void change_unit(Case& c, int exponent) {
+    const auto scale = [](auto& values, int by) {
+        for (double& value : values) value = std::ldexp(value, by);
+    };
+    for (ListData& list : c.lists)
+        scale(list.x, exponent), scale(list.h, exponent), scale(list.H, -exponent);
+    scale(c.domain.lo, exponent), scale(c.domain.hi, exponent);
+    c.text += ", unit 2^" + std::to_string(exponent);
+}
+
 int random_size(Random& random, const CaseKind& kind) {
     if (kind.min_nodes == 0 && random.chance(0.05)) return random.below(4);
     return static_cast<int>(random.log_uniform(std::max(2, kind.min_nodes), kind.max_nodes + 0.99));
@@ -216,6 +227,7 @@ Case random_case(std::uint64_t seed, const CaseKind& kind) {
         give_supports(random, scene, c, K, list);
     }
     c.text = describe(c, seed, kind, scene);
+    if (random.chance(0.25)) change_unit(c, random.pick({-250, -60, 85, 200, 250}));
     return c;
 }
 

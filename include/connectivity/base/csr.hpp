@@ -54,6 +54,9 @@ public:
     /// Makes the prepared rows the list. Cannot fail.
     void publish();
 
+    /// Forgets what was prepared and gives its memory back; the list stays.
+    void abandon();
+
     /// Empties the list and gives its memory back (views held elsewhere keep theirs).
     void clear();
 

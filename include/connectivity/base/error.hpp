@@ -31,4 +31,7 @@ private:
     Status status_;
 };
 
+/// All digits of a value, for texts.
+std::string number(double value);
+
 }  // namespace connectivity

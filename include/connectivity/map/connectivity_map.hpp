@@ -83,8 +83,8 @@ public:
     /// valid during the call, are ascending slots, lists one after the other. Each stored node
     /// comes exactly once, also without neighbours, in any order, from several threads at once;
     /// worker < n_workers() numbers them, for private accumulators. options.rows, pairs,
-    /// spatial_order and budget do not count here. f must not call this map but for const members,
-    /// nor launch kernels.
+    /// spatial_order and budget do not count here. f must not launch kernels; rebuild,
+    /// traversals, drift and needs_rebuild of this map throw Error{callback} there.
     ///
     /// No rebuild: lists, views, generation, drift and options stay those of the last one; the
     /// report gains an entry "traversal". Throws as `rebuild` does, and the first exception that f
@@ -124,6 +124,8 @@ public:
     const Report& report() const { return report_; }
 
 private:
+    template <class Body>
+    void launch(const char* what, const Body& body) const;
     template <int Dim>
     void rebuild_in(std::span<const NodeList> lists, const MapOptions& options);
     void traverse(std::span<const NodeList> lists, const MapOptions& options, RowFunction f);
@@ -137,6 +139,7 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
     Generation generation_ = 0;
+    bool traversing_ = false;
     SlotLayout layout_;
     std::vector<std::string> list_names_;
     std::vector<Offset> n_internal_;

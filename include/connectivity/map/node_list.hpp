@@ -13,6 +13,9 @@
 
 namespace connectivity {
 
+/// Throws Error{argument} unless it is in [1e-100, 1e100].
+void check_kernel_extent(const std::string& name, double kernel_extent);
+
 class NodeList {
 public:
     /// Scalar smoothing lengths. positions [n * dim] interleaved, h [n] >= 0, both host; support

@@ -6,7 +6,7 @@
 
 namespace connectivity {
 
-/// Rows of the stored nodes, trivially copyable, captured by value in kernels. Row r is node a of
+/// Rows of the stored nodes: a counted handle, captured by value in kernels. Row r is node a of
 /// list k with r = row_offset[k] + a; its neighbours in list l are slots(r, l), ascending; never
 /// the node itself.
 template <class Space = HostMemory>
