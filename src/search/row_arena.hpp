@@ -46,7 +46,7 @@ public:
         if (chunk_ == chunks_.size() || top_ + staged_ + room > size(chunk_)) next_chunk(room);
         for (; n_used_ <= chunk_; ++n_used_)
             used.fetch_add(size(n_used_) * Offset{sizeof(Slot)}, std::memory_order_relaxed);
-        if (staged_ + room > staging_size) move_lines();
+        if (staged_ > 0 && staged_ + room > staging_size) move_lines();
         staging_.reserve(std::max(staged_ + room, staging_size), staged_);
         return staging_.data() + staged_;
     }
