@@ -92,7 +92,7 @@ void add_pairs(CLI::App& app, PairsOptions& o) {
 
 void add_cloud(CLI::App& app, CloudOptions& o) {
     auto* const sub = app.add_subcommand(
-        "cloud", "Generate a clustered cloud of nodes with about 60 neighbours as a node file");
+        "cloud", "Generate a clustered cloud of nodes with about 75 neighbours as a node file");
     sub->add_option("--n", o.n, "Number of nodes")->required()->type_name("N");
     sub->add_option("--seed", o.seed, "Seed of the random numbers; default 1")->type_name("S");
     sub->add_option("--out", o.out, "Node file to write")->required()->type_name("FILE");

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Nodes in, rebuild, loop over pairs, move the nodes, rebuild: what a host does in every step.
- * cc neighbours.c $(pkg-config --cflags --libs connectivity) */
+ * From the root of a built clone:
+ * cc capi/examples/c/neighbours.c -Icapi -Iinclude -Lbuild -lconnectivity -Wl,-rpath,$PWD/build */
 #include <stdio.h>
 
 #include <connectivity.h>
