@@ -36,12 +36,15 @@ TEST_F(MapReport, an_order_is_new_once_and_kept_after) {
 
 TEST_F(MapReport, scratch_memory_counts_as_reused_when_none_was_taken) {
     std::int64_t held = 0;
-    for (int k = 0; k < 20; ++k) {  // threads share the work anew in every build
+    int n_reused = 0;
+    for (int k = 0; k < 20; ++k) {  // threads share the work anew in every build, and may need more
         build(SearchMethod::groups, false);
         EXPECT_EQ(entry("scratch").reused, entry("scratch").bytes == held);
         held = entry("scratch").bytes;
+        n_reused += entry("scratch").reused;
     }
-    EXPECT_TRUE(entry("scratch").reused);
+    EXPECT_GT(n_reused, 0);
+    EXPECT_LT(n_reused, 20);
 }
 
 TEST_F(MapReport, what_another_method_left_behind_is_still_counted) {
