@@ -157,22 +157,21 @@ void ConnectivityMap::for_each_row(std::span<const NodeList> lists, const MapOpt
                                    RowFunction f) {
     MapOptions rows_only = options;
     rows_only.rows = true, rows_only.pairs = false;
-    check_request("for_each_row", lists, rows_only);
-    traverse(lists, rows_only, f);
+    traverse("for_each_row", lists, rows_only, f);
 }
 
 void ConnectivityMap::for_each_half_row(std::span<const NodeList> lists, const MapOptions& options,
                                         RowFunction f) {
     MapOptions halves_only = options;
     halves_only.rows = false, halves_only.pairs = true;
-    check_request("for_each_half_row", lists, halves_only);
-    traverse(lists, halves_only, f);
+    traverse("for_each_half_row", lists, halves_only, f);
 }
 
-void ConnectivityMap::traverse(std::span<const NodeList> lists, const MapOptions& options,
-                               RowFunction f) {
+void ConnectivityMap::traverse(const char* call, std::span<const NodeList> lists,
+                               const MapOptions& options, RowFunction f) {
+    check_request(call, lists, options);
     try {
-        launch("traversal", [&] {
+        launch(call, [&] {
             const shim::ProfilingRegion region("map/traverse");
             const Traversing traversing(traversing_);
             switch (lists[0].dim()) {
@@ -206,8 +205,8 @@ void ConnectivityMap::traverse_in(std::span<const NodeList> lists, const MapOpti
 void ConnectivityMap::reserve_reference(std::span<const NodeList> lists, const MapOptions& options,
                                         Report& report) {
     auto& entry = report.entry("skin");
-    count_reuse(report);
     if (options.skin == 0) return;
+    count_reuse(report);
     entry.asked_by = "caller";
     entry.reason = "positions and supports to measure drift from";
     entry.built = true;
@@ -229,7 +228,7 @@ void ConnectivityMap::keep_reference(std::span<const NodeList> lists, Report& re
         impl_->reference.clear();
     }
     ++reuse_.rebuilds;
-    count_reuse(report);
+    if (options_.skin > 0) count_reuse(report);
 }
 
 /// Counters are whole numbers: the drift goes in as millionths of the skin.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "append.hpp"
 #include "support.hpp"
 
 namespace connectivity {
@@ -85,15 +86,6 @@ void take_room(const View<double>& held, View<double>& next, const char* label, 
     if (n > capacity) next = allocate<double>(label, capacity > 0 ? n + n / 4 : n);
 }
 
-void copy_behind(const View<double>& to, Offset& at, const ConstView<double>& from) {
-    double* const out = to.data() + at;
-    const double* const in = from.data();
-    const auto n = static_cast<Offset>(from.size());
-    Kokkos::parallel_for("map/keep", Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, n),
-                         [=](const Offset i) { out[i] = in[i]; });
-    at += n;
-}
-
 }  // namespace
 
 void DriftReference::reserve(std::span<const NodeList> lists) {
@@ -115,8 +107,8 @@ void DriftReference::keep(std::span<const NodeList> lists, const Domain& domain)
     domain_ = domain;
     Offset position = 0, support = 0;
     for (const NodeList& list : lists) {
-        copy_behind(positions_, position, list.positions());
-        copy_behind(supports_, support, support_of(list));
+        position = append(positions_, position, list.positions());
+        support = append(supports_, support, support_of(list));
     }
     HostExec().fence();
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "append.hpp"
 #include "support.hpp"
 
 namespace connectivity {
@@ -150,16 +151,6 @@ double largest_extent(std::span<const NodeList> lists) {
     return extent;
 }
 
-/// Copies n values behind each other.
-void append(View<double> to, Offset at, const ConstView<double>& from) {
-    double* const out = to.data() + at;
-    const double* const in = from.data();
-    Kokkos::parallel_for("map/join",
-                         Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(
-                             0, static_cast<Offset>(from.size())),
-                         [=](const Offset i) { out[i] = in[i]; });
-}
-
 /// Positions of all lists, joined only if there is more than one.
 template <int Dim>
 ConstView<double> join_positions(std::span<const NodeList> lists, Offset n,
@@ -167,8 +158,7 @@ ConstView<double> join_positions(std::span<const NodeList> lists, Offset n,
     if (lists.size() == 1) return lists[0].positions();
     ensure_capacity(storage.positions, "map/positions", n * Dim);
     Offset at = 0;
-    for (const NodeList& list : lists)
-        append(storage.positions, at, list.positions()), at += list.n() * Dim;
+    for (const NodeList& list : lists) at = append(storage.positions, at, list.positions());
     HostExec().fence();
     return Kokkos::subview(storage.positions, std::pair<std::size_t, std::size_t>(0, n * Dim));
 }

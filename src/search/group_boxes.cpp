@@ -90,13 +90,12 @@ template <int Dim>
 void GroupBoxes<Dim>::find_common_reach(const SearchNodes<Dim>& nodes) {
     const double* const reach2 = nodes.reach2.data();
     const double first = common_reach2_ = nodes.n > 0 ? reach2[0] : 0;
-    Offset others = 0;
-    if (nodes.n <= few_items)
-        others = std::count_if(reach2, reach2 + nodes.n, [=](double r2) { return r2 != first; });
-    else
+    const Offset few = std::min(nodes.n, few_items);
+    Offset others = std::count_if(reach2, reach2 + few, [=](double r2) { return r2 != first; });
+    if (others == 0 && nodes.n > few)  // varied ones mostly show at once
         Kokkos::parallel_reduce(
             "search/groups/common_reach",
-            Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, nodes.n),
+            Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(few, nodes.n),
             [=](const Offset i, Offset& n) { n += reach2[i] != first; }, others);
     has_common_reach_ = others == 0;
 }

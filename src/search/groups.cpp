@@ -45,7 +45,6 @@ void GroupSearch<Dim>::sweep(const GroupSweep<Dim>& shared, Offset stride) {
         try {
             workers_[worker].process(shared, worker, order_.block_leaf[b],
                                      order_.block_leaf[b + 1]);
-            finish_streams();
         } catch (...) {
             first.keep();
         }
@@ -53,18 +52,12 @@ void GroupSearch<Dim>::sweep(const GroupSweep<Dim>& shared, Offset stride) {
     first.rethrow();
 }
 
-template <int Dim>
-void GroupSearch<Dim>::sweep_into_store(const GroupSweep<Dim>& shared, Offset stride) {
-    sweep(shared, stride);
-    store_.end_sweep();
-}
-
 /// Entries that the arenas would hold, from a sixty-fourth of the blocks.
 template <int Dim>
 Offset GroupSearch<Dim>::estimate_entries(const GroupSweep<Dim>& shared) {
     constexpr Offset stride = 64;
     store_.begin_sweep(0, 0);
-    sweep_into_store(shared, stride);
+    sweep(shared, stride);
     Offset entries = 0, sampled = 0;
     for (Offset b = 0; b < order_.n_blocks(); b += stride)
         for (Offset p = order_.block_leaf[b] * leaf_size; p < order_.block_leaf[b + 1] * leaf_size;
@@ -124,12 +117,12 @@ void GroupSearch<Dim>::find_rows(const GroupSweep<Dim>& shared, const SlotLayout
     const Offset room = 3 * expected + slack + n_workers() * RowArena::smallest_bytes;
     try {
         store_.begin_sweep(surely_fits ? room : 0, expected);
-        sweep_into_store(shared, 1);
+        sweep(shared, 1);
         const Offset result = products.prepare(store_.counts(), layout, request.budget);
         if (!store_.only_counted()) return;
         const Offset free = Budget().allowed();
         store_.begin_sweep(free, result);
-        sweep_into_store(shared, 1);
+        sweep(shared, 1);
         if (store_.only_counted())
             throw Error(Status::budget, "the search needs more than " + human_bytes(free) +
                                             " while it runs, the memory that is free, beside the " +

@@ -39,7 +39,6 @@ public:
 private:
     void reserve_workers();
     void sweep(const GroupSweep<Dim>& shared, Offset stride);
-    void sweep_into_store(const GroupSweep<Dim>& shared, Offset stride);
     Offset estimate_entries(const GroupSweep<Dim>& shared);
     void find_rows(const GroupSweep<Dim>& shared, const SlotLayout& layout,
                    const SearchRequest& request, Products products);

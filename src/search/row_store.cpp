@@ -25,11 +25,7 @@ void RowStore::begin_sweep(Offset arena_bytes, Offset expected_bytes) {
     only_counts_ = arena_bytes == 0;
     used_ = 0;
     past_caches_ = expected_bytes > cached;
-    for (Worker& worker : workers_) worker.arena.reset(past_caches_);
-}
-
-void RowStore::end_sweep() {
-    for (Worker& worker : workers_) worker.arena.flush();
+    for (Worker& worker : workers_) worker.arena.reset();
 }
 
 void RowStore::store_nothing(int, Slot slot) {
@@ -79,8 +75,8 @@ void RowStore::store(int worker_number, const FoundRow& found) {
                             found.label + first * word_size, out);
     if (row < 0) n = keep_stored(out, n);
     if (whole) count_lists(row, out, n);
-    const Slot* const place = out != worker.row.data() ? worker.arena.end_row(n) : nullptr;
-    record(found.slot, place, n, n - before);
+    if (out != worker.row.data()) worker.arena.end_row(n);
+    record(found.slot, out, n, n - before);
 }
 
 void RowStore::record(Slot slot, const Slot* first, int n, int later) {

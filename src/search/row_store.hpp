@@ -21,7 +21,7 @@ namespace connectivity::detail {
 
 /// Where a row lies in an arena, and what it holds.
 struct ArenaRow {
-    const Slot* first;  ///< nowhere while counting
+    const Slot* first;  ///< of no meaning while counting
     Slot length;        ///< entries
     Slot later;         ///< how many of them, at the end, belong to the half row
 };
@@ -32,11 +32,8 @@ public:
     void begin(const SlotLayout& layout, bool rows, bool halves, BitKernels kernels);
 
     /// Starts a sweep that keeps at most `arena_bytes` of rows in arenas and only counts the
-    /// others; 0: counts all.
+    /// others; 0: counts all. What is expected to outgrow the caches is written past them.
     void begin_sweep(Offset arena_bytes, Offset expected_bytes);
-
-    /// Ends the sweep: every row lies in its place. Cannot fail.
-    void end_sweep();
 
     /// Called by worker `worker`. Throws Error{memory}.
     void store(int worker, const FoundRow& row) override;

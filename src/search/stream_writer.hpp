@@ -31,13 +31,6 @@ inline void stream_copy(Slot* to, const Slot* from, Offset n) {
     if (k < n) std::memcpy(to + k, from + k, static_cast<std::size_t>(n - k) * sizeof(Slot));
 }
 
-/// Makes what was streamed visible to other threads before anything stored later.
-inline void finish_streams() {
-#if defined(__SSE2__)
-    _mm_sfence();
-#endif
-}
-
 /// A sequential writer; the destination is filled from low to high, `finish` writes what is left.
 class StreamWriter {
 public:
@@ -59,7 +52,9 @@ public:
 
     void finish() {
         flush();
-        finish_streams();
+#if defined(__SSE2__)
+        _mm_sfence();
+#endif
     }
 
 private:

@@ -7,8 +7,8 @@
 /// where both are stored; every pair has at least one stored row and stands once. Results are the
 /// same bits for any number of threads, any search method and any instruction set. A rebuild that
 /// throws leaves everything as it was. Cost: O(N) time for bounded neighbour numbers; rows 4 bytes
-/// an entry + 8 per node and list, pairs 4 bytes each + 8 per node; a steady-state rebuild
-/// allocates nothing.
+/// an entry + 8 per node and list, pairs 4 bytes each + 8 per node; storage is kept
+/// from rebuild to rebuild.
 
 #include <memory>
 #include <span>
@@ -128,7 +128,8 @@ private:
     void launch(const char* what, const Body& body) const;
     template <int Dim>
     void rebuild_in(std::span<const NodeList> lists, const MapOptions& options);
-    void traverse(std::span<const NodeList> lists, const MapOptions& options, RowFunction f);
+    void traverse(const char* call, std::span<const NodeList> lists, const MapOptions& options,
+                  RowFunction f);
     template <int Dim>
     void traverse_in(std::span<const NodeList> lists, const MapOptions& options, RowFunction f);
     void reserve_reference(std::span<const NodeList> lists, const MapOptions& options,
