@@ -149,8 +149,8 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
     keep_reference(lists, report);
     std::swap(report_, report);
     if (!options.pairs) pairs_.first_ = {};
+    pairs_.start_generation(++generation_, options.pairs);
     report_.entry("pairs").bytes = pairs_.bytes();
-    pairs_.generation_ = ++generation_;
 }
 
 void ConnectivityMap::for_each_row(std::span<const NodeList> lists, const MapOptions& options,

@@ -1,10 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <connectivity/map/node_pair_list.hpp>
 
+#include <atomic>
+
 namespace connectivity {
+namespace {
+
+Stamp new_stamp() noexcept {
+    static std::atomic<Stamp> last{0};
+    return ++last;
+}
+
+}  // namespace
 
 Offset NodePairList::bytes() const {
-    return half_rows_.bytes() + static_cast<Offset>(first_.size() * sizeof(Slot));
+    return half_rows_.bytes() + static_cast<Offset>(first_.size() * sizeof(Slot)) +
+           coupling_.bytes();
+}
+
+NodePairList::View<> NodePairList::view() const {
+    return {half_rows_.offsets(), half_rows_.values(), {}, generation_, stamp_, coupling_.values()};
+}
+
+void NodePairList::set_coupling(NodeCoupling f) {
+    require_built("set_coupling");
+    coupling_.set(half_rows_.offsets(), half_rows_.values(), f);
+}
+
+void NodePairList::set_coupling(Offset k, double value) {
+    require_built("set_coupling");
+    coupling_.set(half_rows_.offsets(), half_rows_.values(), k, value);
+}
+
+void NodePairList::start_generation(Generation generation, bool built) noexcept {
+    generation_ = generation;
+    stamp_ = built ? new_stamp() : 0;
+    coupling_.drop();
+}
+
+void NodePairList::continue_generation(Generation generation) noexcept {
+    generation_ = generation;
+    stamp_ = new_stamp();
+    coupling_.commit_remap();
+}
+
+void NodePairList::require_built(const char* call) const {
+    if (stamp_ == 0)
+        throw Error(Status::not_built,
+                    std::string(call) + ": the last rebuild was not asked for pairs");
 }
 
 NodePairList::View<> NodePairList::expanded_view() {

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <connectivity/map/node_coupling.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include <connectivity/base/kokkos_shim.hpp>
+#include <connectivity/map/pair_field_base.hpp>
+
+#include "search/first_exception.hpp"
+
+namespace connectivity {
+namespace {
+
+constexpr const char* label = "map/pairs/coupling";
+using Slots = Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>;
+
+bool is_allowed(double value) { return value >= 0 && value <= 1; }
+
+/// values[k] of all pairs; returns the first pair whose value is not allowed, or their number.
+Offset evaluate(const ConstView<Offset>& offsets, const ConstView<Slot>& j, const NodeCoupling& f,
+                double* values) {
+    const Offset n_slots = static_cast<Offset>(offsets.size()) - 1;
+    Offset first_bad = static_cast<Offset>(j.size());
+    detail::FirstException failure;
+    auto* const failed = &failure;
+    Kokkos::parallel_reduce(
+        label, Slots(0, n_slots),
+        [=](const Offset i, Offset& bad) {
+            const Offset first = offsets(i), last = offsets(i + 1);
+            if (first == last || failed->any()) return;
+            try {
+                f(static_cast<Slot>(i), {j.data() + first, j.data() + last}, values + first);
+            } catch (...) {
+                failed->keep();
+                return;
+            }
+            for (Offset k = first; k < last && k < bad; ++k)
+                if (!is_allowed(values[k])) bad = k;
+        },
+        Kokkos::Min<Offset>(first_bad));
+    failure.rethrow();
+    return std::min(first_bad, static_cast<Offset>(j.size()));
+}
+
+[[noreturn]] void throw_out_of_range(const ConstView<Offset>& offsets, const ConstView<Slot>& j,
+                                     Offset k, double value) {
+    const Offset* const begin = offsets.data();
+    const Offset i = std::upper_bound(begin, begin + offsets.size(), k) - begin - 1;
+    throw Error(Status::argument, "set_coupling: pair " + std::to_string(k) + " (slots " +
+                                      std::to_string(i) + " and " + std::to_string(j(k)) +
+                                      "): coupling = " + number(value) + ", must be in [0, 1]");
+}
+
+}  // namespace
+
+ConstView<double> PairCoupling::values() const {
+    if (!exists_) return {};
+    return Kokkos::subview(values_, std::pair<Offset, Offset>(0, n_));
+}
+
+Offset PairCoupling::bytes() const {
+    return static_cast<Offset>((values_.size() + spare_.size() + pending_.size()) * sizeof(double));
+}
+
+void PairCoupling::set(const ConstView<Offset>& offsets, const ConstView<Slot>& j,
+                       const NodeCoupling& f) {
+    const auto n = static_cast<Offset>(j.size());
+    ensure_capacity(spare_, label, n);
+    shim::outside_parallel_region([&] {
+        const Offset bad = evaluate(offsets, j, f, spare_.data());
+        if (bad < n) throw_out_of_range(offsets, j, bad, spare_(bad));
+    });
+    std::swap(values_, spare_);
+    n_ = n;
+    exists_ = true;
+}
+
+void PairCoupling::set(const ConstView<Offset>& offsets, const ConstView<Slot>& j, Offset k,
+                       double value) {
+    const auto n = static_cast<Offset>(j.size());
+    if (k < 0 || k >= n)
+        throw Error(Status::argument, "set_coupling: pair " + std::to_string(k) +
+                                          ", must be in [0, " + std::to_string(n) + ")");
+    if (!is_allowed(value)) throw_out_of_range(offsets, j, k, value);
+    if (!exists_) {
+        ensure_capacity(values_, label, n);
+        detail::fill_pairs(values_.data(), n, 1.0);
+    } else if (values_.use_count() > 1) {  // a view of the old values keeps them
+        const auto copy = allocate<double>(label, n);
+        std::copy_n(values_.data(), n, copy.data());
+        values_ = copy;
+    }
+    n_ = n;
+    exists_ = true;
+    values_(k) = value;
+}
+
+void PairCoupling::clear() noexcept {
+    values_ = spare_ = pending_ = {};
+    n_ = 0;
+    exists_ = false;
+}
+
+void PairCoupling::drop() noexcept {
+    if (!exists_) return clear();
+    n_ = 0;
+    exists_ = false;
+}
+
+void PairCoupling::prepare_remap(const ConstView<Offset>& new_to_old) {
+    if (!exists_) return;
+    n_pending_ = static_cast<Offset>(new_to_old.size());
+    pending_ = detail::remapped<double>(label, values_.data(), 1, new_to_old);
+}
+
+void PairCoupling::commit_remap() noexcept {
+    if (!exists_) return;
+    values_ = pending_;
+    pending_ = {};
+    n_ = n_pending_;
+}
+
+}  // namespace connectivity
