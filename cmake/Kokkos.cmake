@@ -33,3 +33,9 @@ if(NOT TARGET Kokkos::kokkos)
 endif()
 message(STATUS
     "Kokkos ${Kokkos_VERSION} (${CONNECTIVITY_KOKKOS}; ${Kokkos_DEVICES}): ${Kokkos_DIR}")
+
+# Device compilers fuse products and sums on their own; -ffp-contract=off of Flags.cmake reaches only
+# clang and the host's half of nvcc, whose device half has a switch of its own.
+if(Kokkos_ENABLE_CUDA AND NOT CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+    target_compile_options(connectivity_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:--fmad=false>)
+endif()

@@ -46,9 +46,10 @@ function(connectivity_precompile target)
     endif()
 endfunction()
 
-# Adds the layer if src/<layer> has sources. A layer that is headers only needs no library.
+# Adds the layer if src/<layer> has sources, in folders of its own too. A layer that is headers only needs no library.
 function(connectivity_layer layer)
-    file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${layer}/*.cpp")
+    file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${layer}/*.cpp"
+        "${PROJECT_SOURCE_DIR}/src/${layer}/*/*.cpp")
     if(NOT sources)
         return()
     endif()

@@ -30,6 +30,9 @@ public:
     void visit(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
                const SearchRequest& request, RowFunction f);
 
+    /// The order made last.
+    const GroupOrder& order() const { return order_; }
+
     /// Slots in the order made last, [n].
     View<Slot> spatial_order() const;
 

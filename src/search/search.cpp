@@ -2,6 +2,7 @@
 #include <connectivity/search/search.hpp>
 
 #include "cells.hpp"
+#include "device/device_search.hpp"
 #include "direct.hpp"
 #include "groups.hpp"
 
@@ -13,6 +14,7 @@ const char* name_of(SearchMethod method) {
         case SearchMethod::brute: return "brute";
         case SearchMethod::cells: return "cells";
         case SearchMethod::groups: return "groups";
+        case SearchMethod::device: return "device";
     }
     return "unknown";
 }
@@ -20,6 +22,9 @@ const char* name_of(SearchMethod method) {
 template <int Dim>
 struct Search<Dim>::State {
     detail::GroupSearch<Dim> groups;
+    detail::DeviceSearch<Dim> device;
+
+    Offset scratch_bytes() const { return groups.scratch_bytes() + device.bytes(); }
 };
 
 template <int Dim>
@@ -38,17 +43,32 @@ struct Choice {
     std::string reason;
 };
 
+/// Does the device search run on what is no host?
+constexpr bool has_device = !detail::device::is_host<Kokkos::DefaultExecutionSpace>;
+
 /// Brute force while a block of the group search would hold all nodes anyway; groups beyond: cells
-/// never overtook them.
+/// never overtook them. A device, where there is one, once its dozens of launches and copies cost
+/// less than the search itself.
 Choice choose(SearchMethod asked, Offset n) {
-    constexpr Offset few = 48;
+    constexpr Offset few = 48, enough_for_device = 10000;
     if (asked != SearchMethod::automatic)
         return {asked, std::string(name_of(asked)) + ": asked for"};
     if (n <= few)
         return {SearchMethod::brute, "brute: " + std::to_string(n) + " nodes, at most " +
                                          std::to_string(few) + " are tested all with all"};
+    if (has_device && n >= enough_for_device)
+        return {SearchMethod::device, "device: " + std::to_string(n) + " nodes, at least " +
+                                          std::to_string(enough_for_device) + ", and Kokkos has " +
+                                          Kokkos::DefaultExecutionSpace::name()};
     return {SearchMethod::groups,
             "groups: " + std::to_string(n) + " nodes, more than " + std::to_string(few)};
+}
+
+/// A traversal keeps no rows, and a device has no other way to hand them over.
+Choice choose_traversal(SearchMethod asked, Offset n) {
+    const Choice choice = choose(asked, n);
+    if (choice.method != SearchMethod::device) return choice;
+    return {SearchMethod::groups, "groups: a device cannot hand over rows that are not stored"};
 }
 
 void announce(Report& report, const char* product, const char* asked_by,
@@ -64,17 +84,20 @@ void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
                       const SearchRequest& request, Csr& rows, Csr& half_rows, Report& report) {
     const detail::Products products{rows, half_rows};
     const Choice choice = choose(request.method, nodes.n);
-    const bool groups = choice.method == SearchMethod::groups;
+    const bool device = choice.method == SearchMethod::device,
+               ordered = device || choice.method == SearchMethod::groups;
     auto& group_search = state_->groups;
-    const Offset scratch_before = group_search.scratch_bytes();
+    const Offset scratch_before = state_->scratch_bytes();
 
     // Entries are made before the work: nothing may fail once the new lists are out.
     announce(report, "rows", request.rows ? "caller" : "", choice.reason);
     announce(report, "pairs", request.half_rows ? "caller" : "",
              request.rows ? "found with the rows" : choice.reason);
-    announce(report, "scratch", groups ? "search" : "", "rows wait here until all are counted");
-    if (groups && !request.ordered) group_search.update_order(nodes, report);
-    if (!groups && !request.ordered) announce(report, "order", "", "");
+    announce(report, "scratch", ordered ? "search" : "",
+             device ? "nodes, candidates and lists of the kernels"
+                    : "rows wait here until all are counted");
+    if (ordered && !request.ordered) group_search.update_order(nodes, report);
+    if (!ordered && !request.ordered) announce(report, "order", "", "");
 
     const Stopwatch watch;
     switch (choice.method) {
@@ -88,6 +111,9 @@ void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
                 .run(products);
             break;
         }
+        case SearchMethod::device:
+            state_->device.run(nodes, group_search.order(), layout, request, products, report);
+            break;
         default: group_search.run(nodes, layout, request, products, report);
     }
     if (!request.rows) rows.clear();
@@ -97,14 +123,14 @@ void Search<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
     report.entry("rows").bytes = rows.bytes();
     report.entry("pairs").bytes = half_rows.bytes();
     report.entry("order").bytes = group_search.order_bytes();
-    report.entry("scratch").bytes = group_search.scratch_bytes();
-    report.entry("scratch").reused = group_search.scratch_bytes() == scratch_before && groups;
+    report.entry("scratch").bytes = state_->scratch_bytes();
+    report.entry("scratch").reused = state_->scratch_bytes() == scratch_before && ordered;
 }
 
 template <int Dim>
 void Search<Dim>::visit(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
                         const SearchRequest& request, RowFunction f, Report& report) {
-    const Choice choice = choose(request.method, nodes.n);
+    const Choice choice = choose_traversal(request.method, nodes.n);
     auto& group_search = state_->groups;
     // Entries are made before the work: the host has seen all rows when it ends.
     announce(report, "traversal", "caller", choice.reason);
@@ -123,7 +149,7 @@ void Search<Dim>::visit(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
     }
     report.entry("traversal").ms = watch.ms();
     report.entry("order").bytes = group_search.order_bytes();
-    report.entry("scratch").bytes = group_search.scratch_bytes();
+    report.entry("scratch").bytes = state_->scratch_bytes();
 }
 
 template <int Dim>
@@ -135,7 +161,7 @@ View<Slot> Search<Dim>::spatial_order(const SearchNodes<Dim>& nodes, Report& rep
 
 template <int Dim>
 Offset Search<Dim>::bytes() const {
-    return state_->groups.order_bytes() + state_->groups.scratch_bytes();
+    return state_->groups.order_bytes() + state_->scratch_bytes();
 }
 
 template class Search<1>;

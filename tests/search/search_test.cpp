@@ -13,7 +13,8 @@
 namespace connectivity::test {
 namespace {
 
-constexpr SearchMethod methods[] = {SearchMethod::brute, SearchMethod::cells, SearchMethod::groups};
+constexpr SearchMethod methods[] = {SearchMethod::brute, SearchMethod::cells, SearchMethod::groups,
+                                    SearchMethod::device};
 
 /// A prepared problem and the lists a search fills.
 struct Problem {

@@ -52,6 +52,7 @@ MapOptions map_options(const Case& c, SearchMethod method = SearchMethod::automa
 void rebuild(ConnectivityMap& map, const Case& c, SearchMethod method = SearchMethod::automatic);
 
 inline constexpr SearchMethod all_methods[] = {SearchMethod::brute, SearchMethod::cells,
-                                               SearchMethod::groups, SearchMethod::automatic};
+                                               SearchMethod::groups, SearchMethod::device,
+                                               SearchMethod::automatic};
 
 }  // namespace connectivity::test

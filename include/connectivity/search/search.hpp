@@ -2,10 +2,11 @@
 #pragma once
 /// Neighbour search: from nodes and supports to sorted rows and half rows, exact and complete.
 ///
-/// Three methods give the same bits. `brute` tests every pair; `cells` hashes nodes into a grid of
+/// Four methods give the same bits. `brute` tests every pair; `cells` hashes nodes into a grid of
 /// the largest support; `groups` sorts nodes into blocks of a tree by support class and position
 /// and tests blocks against candidates with vector code, any double decision inside a proven error
-/// band. `automatic` chooses and says why in the report.
+/// band; `device` does the same in double as kernels of Kokkos' default execution space, a GPU
+/// where there is one, from the order of `groups`. `automatic` chooses and says why in the report.
 ///
 /// Rows: for every stored slot the ascending slots of its neighbours, cut by target list: row r,
 /// list l is segment r * n_lists + l. Half rows: for every slot the partners after it; a slot
@@ -24,7 +25,7 @@
 
 namespace connectivity {
 
-enum class SearchMethod { automatic, brute, cells, groups };
+enum class SearchMethod { automatic, brute, cells, groups, device };
 
 const char* name_of(SearchMethod method);
 
@@ -56,7 +57,8 @@ public:
     /// Hands every row (request.rows) or else every half row to f, and stores none: whole rows of
     /// all stored slots, half rows of all slots, empty ones too, each once, in any order, from
     /// several threads at once, with worker < n_workers(). Where f throws, the search stops and
-    /// the first of these exceptions comes out as HostException. Throws Error{memory},
+    /// the first of these exceptions comes out as HostException. There is no traversal on a
+    /// device, whose rows would have to be stored: `groups` does it. Throws Error{memory},
     /// std::bad_alloc.
     void visit(const SearchNodes<Dim>& nodes, const SlotLayout& layout,
                const SearchRequest& request, RowFunction f, Report& report);
