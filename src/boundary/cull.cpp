@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Culling: which ghosts do internal nodes name? The others leave the map, the lists and the blocks.
+#include <atomic>
+
+#include <connectivity/boundary/boundaries.hpp>
+
+#include "launch.hpp"
+#include "state.hpp"
+
+namespace connectivity {
+
+namespace {
+
+/// All rows belong to internal nodes, and so does one end of each pair.
+void check_may_cull(const ConnectivityMap& map, const GhostLists& ghosts) {
+    if (map.generation() == 0 || (!map.options().rows && !map.options().pairs))
+        throw Error(Status::not_built, "cull: the map has neither rows nor pairs");
+    if (map.options().stores_all_rows())
+        throw Error(Status::argument,
+                    "cull: the map holds rows of ghosts, or overlap, intersections or a key order "
+                    "that need them");
+    bool same = map.layout().list_offset() == ghosts.layout().list_offset();
+    for (int list = 0; same && list < ghosts.n_lists(); ++list)
+        same = map.n_internal()[static_cast<std::size_t>(list)] == ghosts.n_internal(list);
+    if (!same)
+        throw Error(Status::stale,
+                    "cull: the map was not built from the nodes of these boundaries");
+}
+
+/// Several threads may name one ghost.
+void name(Slot* keep, Slot slot) {
+    const std::atomic_ref<Slot> flag(keep[slot]);
+    if (flag.load(std::memory_order_relaxed) == 0) flag.store(1, std::memory_order_relaxed);
+}
+
+template <class Body>
+void for_each(Offset n, const Body& body) {
+    Kokkos::parallel_for("boundary/cull/named",
+                         Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, n), body);
+    HostExec().fence();
+}
+
+void flag_named(ConnectivityMap& map, const View<Slot>& flags) {
+    Slot* const keep = flags.data();
+    std::fill_n(keep, map.layout().n_slots(), 0);
+    if (map.options().rows) {
+        const RowsView<> rows = map.rows();
+        const Slot* const slots = rows.slots.data();
+        for_each(rows.size(), [=](const Offset k) { name(keep, slots[k]); });
+        return;
+    }
+    const auto pairs = map.pairs().view();
+    for_each(pairs.n_slots(), [=](const Offset i) {
+        for (Offset k = pairs.offsets(i); k < pairs.offsets(i + 1); ++k) name(keep, pairs.j(k));
+        if (pairs.offsets(i) < pairs.offsets(i + 1)) name(keep, static_cast<Slot>(i));
+    });
+}
+
+}  // namespace
+
+Offset Boundaries::cull(ConnectivityMap& map, CullRule rule) {
+    const Stopwatch culling;
+    State& state = *state_;
+    check_may_cull(map, state.ghosts);
+    const Offset n_slots = map.layout().n_slots();
+    Offset removed = 0;
+    detail::launch("cull", [&] {
+        ensure_capacity(keep_, "boundary/keep", n_slots);
+        ensure_capacity(old2new_, "boundary/old2new", n_slots);
+        flag_named(map, keep_);
+        state.ghosts.keep_needed(keep_, rule);
+        removed = state.ghosts.renumber(keep_, old2new_);
+    });
+    if (removed > 0) {
+        const auto n = static_cast<std::size_t>(n_slots);
+        map.patch(std::span<const Slot>(keep_.data(), n),
+                  std::span<const Slot>(old2new_.data(), n));
+        const std::vector<Offset> first = state.ghosts.layout().list_offset();
+        for (std::size_t k = 0; k < state.nodes.size(); ++k)
+            state.nodes[k].drop(keep_.data() + first[k], old2new_.data() + first[k]);
+        state.ghosts.drop(keep_, old2new_);
+        state.make_lists();
+    }
+    auto& entry = report_.entry("cull");
+    entry = {
+        "cull",      "caller", "ghosts that no internal node needs",
+        true,        false,    static_cast<Offset>((keep_.size() + old2new_.size()) * sizeof(Slot)),
+        culling.ms()};
+    report_.counter("ghosts_culled") += removed;
+    return removed;
+}
+
+}  // namespace connectivity
