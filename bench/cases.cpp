@@ -82,8 +82,10 @@ std::vector<CaseName> all_cases() {
     std::vector<CaseName> cases;
     for (const std::string workload : test::all_workloads)
         add(cases, named(workload), all_forms,
-            workload == "W1" || workload == "W3" ? Names{"3lists", "tensor", "step", "reordered"}
-                                                 : Names{"step", "reordered"});
+            workload == "W1" || workload == "W3"
+                ? Names{"3lists", "tensor", "device", "step", "reordered"}
+            : workload == "W7" ? Names{"device", "step", "reordered"}
+                               : Names{"step", "reordered"});
     for (const std::string workload : test::all_workloads)
         add(cases, named(workload, "", true), all_forms, {});
     for (const std::string workload : test::all_workloads) add_sizes(cases, workload);

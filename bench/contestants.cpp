@@ -17,7 +17,7 @@ namespace {
 
 SearchMethod method_of(const std::string& variant) {
     for (const SearchMethod method :
-         {SearchMethod::brute, SearchMethod::cells, SearchMethod::groups})
+         {SearchMethod::brute, SearchMethod::cells, SearchMethod::groups, SearchMethod::device})
         if (variant == name_of(method)) return method;
     if (!variant.empty() && variant != "3lists" && variant != "tensor")
         throw std::invalid_argument("no variant named " + variant);

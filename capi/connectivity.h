@@ -192,7 +192,8 @@ enum { /* All methods give the same lists. */
        CONN_METHOD_AUTOMATIC = 0,
        CONN_METHOD_BRUTE = 1,
        CONN_METHOD_CELLS = 2,
-       CONN_METHOD_GROUPS = 3
+       CONN_METHOD_GROUPS = 3,
+       CONN_METHOD_DEVICE = 4 /**< kernels of the library's Kokkos: on a GPU where it has one */
 };
 
 typedef struct conn_map_options {

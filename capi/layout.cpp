@@ -123,7 +123,7 @@ static_assert(CONN_SPACE_HOST == 0 && CONN_SPACE_HOST_PINNED == 1 && CONN_SPACE_
 static_assert(CONN_FLOAT64 == 0 && CONN_FLOAT32 == 1);
 static_assert(CONN_GATHER == 1 && CONN_SCATTER == 2 && CONN_GATHER_SCATTER == 3);
 static_assert(CONN_METHOD_AUTOMATIC == 0 && CONN_METHOD_BRUTE == 1 && CONN_METHOD_CELLS == 2);
-static_assert(CONN_METHOD_GROUPS == 3 && CONN_PAIRS_EXPAND == 1 && CONN_ROWS == 1 &&
-              CONN_PAIRS == 2);
+static_assert(CONN_METHOD_GROUPS == 3 && CONN_METHOD_DEVICE == 4);
+static_assert(CONN_PAIRS_EXPAND == 1 && CONN_ROWS == 1 && CONN_PAIRS == 2);
 
 }  // namespace

@@ -30,6 +30,7 @@ SearchMethod read_method(std::int32_t method) {
         case CONN_METHOD_BRUTE: return SearchMethod::brute;
         case CONN_METHOD_CELLS: return SearchMethod::cells;
         case CONN_METHOD_GROUPS: return SearchMethod::groups;
+        case CONN_METHOD_DEVICE: return SearchMethod::device;
         default:
             throw Error(Status::argument, "options->method = " + std::to_string(method) +
                                               ", must be one of CONN_METHOD_*");

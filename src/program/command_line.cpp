@@ -54,7 +54,8 @@ void add_pairs(CLI::App& app, PairsOptions& o) {
     const std::map<std::string, SearchMethod> methods{{"automatic", SearchMethod::automatic},
                                                       {"brute", SearchMethod::brute},
                                                       {"cells", SearchMethod::cells},
-                                                      {"groups", SearchMethod::groups}};
+                                                      {"groups", SearchMethod::groups},
+                                                      {"device", SearchMethod::device}};
     auto* const sub =
         app.add_subcommand("pairs", "Neighbour rows and unique pairs of a snapshot or node file");
     sub->add_option("FILE", o.file, "GADGET, SWIFT, H5Part or node file (HDF5)")->required();
@@ -78,7 +79,7 @@ void add_pairs(CLI::App& app, PairsOptions& o) {
         ->check(CLI::NonNegativeNumber)
         ->type_name("K");
     sub->add_option("--method", o.method,
-                    "automatic, brute, cells or groups: the result is the same")
+                    "automatic, brute, cells, groups or device: the result is the same")
         ->transform(CLI::CheckedTransformer(methods).description(""))
         ->type_name("NAME");
     sub->add_option("--threads", o.n_threads, "Threads; default: all cores, or OMP_NUM_THREADS")

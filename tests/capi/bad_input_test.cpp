@@ -181,7 +181,7 @@ TEST_F(CapiBadInput, options_outside_their_range_are_refused) {
     EXPECT_TRUE(fails(refused([](Options& o) { o.mode = 0; }), CONN_E_ARGUMENT, {"mode = 0"}));
     EXPECT_TRUE(
         fails(refused([](Options& o) { o.mode = CONN_GATHER; }), CONN_E_ARGUMENT, {"pairs"}));
-    EXPECT_TRUE(fails(refused([](Options& o) { o.method = 4; }), CONN_E_ARGUMENT, {"method = 4"}));
+    EXPECT_TRUE(fails(refused([](Options& o) { o.method = 5; }), CONN_E_ARGUMENT, {"method = 5"}));
     EXPECT_TRUE(
         fails(refused([](Options& o) { o.periodic[2] = 2; }), CONN_E_ARGUMENT, {"periodic[2]"}));
     EXPECT_TRUE(fails(refused([](Options& o) { o.budget_bytes = -1; }), CONN_E_ARGUMENT, {"-1"}));

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int all_methods[] = {CONN_METHOD_AUTOMATIC, CONN_METHOD_BRUTE, CONN_METHOD_CELLS,
-                               CONN_METHOD_GROUPS};
+                               CONN_METHOD_GROUPS, CONN_METHOD_DEVICE};
 
 std::vector<double> flat(const json& rows) {
     std::vector<double> values;

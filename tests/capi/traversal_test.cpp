@@ -84,7 +84,7 @@ void expect_lists(const Host& rows, const Host& halves, int dim, const std::vect
 TEST(CapiTraversal, each_row_and_each_pair_comes_once_in_every_method) {
     const Context context;
     for (const int dim : {1, 2, 3})
-        for (int method = CONN_METHOD_AUTOMATIC; method <= CONN_METHOD_GROUPS; ++method) {
+        for (int method = CONN_METHOD_AUTOMATIC; method <= CONN_METHOD_DEVICE; ++method) {
             std::vector<NodeSet> sets = {random_nodes(dim, 700, 1), random_nodes(dim, 0, 2),
                                          random_nodes(dim, 300, 3, true)};
             sets[0].n_internal = 500;  // ghosts

@@ -54,7 +54,8 @@ Case large_cloud(bool periodic) {
 std::uint64_t fingerprint_of_all_results() {
     ConnectivityMap map;
     Fnv1a hash;
-    constexpr SearchMethod parallel[] = {SearchMethod::groups, SearchMethod::automatic};
+    constexpr SearchMethod parallel[] = {SearchMethod::groups, SearchMethod::device,
+                                         SearchMethod::automatic};
     for (std::uint64_t seed = 0; seed < 120; ++seed)
         add_case(hash, map,
                  random_case(seed, {static_cast<int>(seed % 3) + 1, seed % 2 == 1, 300, 0}));

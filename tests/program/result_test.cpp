@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-const char* const methods[] = {"automatic", "brute", "cells", "groups"};
+const char* const methods[] = {"automatic", "brute", "cells", "groups", "device"};
 
 /// Runs a case and compares; `more` are further arguments.
 void expect_brute_force(const Case& c, std::vector<std::string> more) {
@@ -37,7 +37,7 @@ TEST(ResultOfPairs, equals_brute_force_in_every_dimension) {
             Case c = random_case(seed, {.dim = dim, .periodic = seed % 2 == 0, .min_nodes = 1});
             c.mode = SearchMode::gather_scatter;
             expect_brute_force(c,
-                               {"--method", methods[seed % 4], "--threads", seed % 3 ? "2" : "1"});
+                               {"--method", methods[seed % 5], "--threads", seed % 3 ? "2" : "1"});
         }
 }
 

@@ -4,11 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <support/brute_force.hpp>
 #include <support/expect_error.hpp>
-#include <support/random_case.hpp>
 
-#include "map/prepare.hpp"
+#include "search_problem.hpp"
 
 namespace connectivity::test {
 namespace {
@@ -16,40 +14,11 @@ namespace {
 constexpr SearchMethod methods[] = {SearchMethod::brute, SearchMethod::cells, SearchMethod::groups,
                                     SearchMethod::device};
 
-/// A prepared problem and the lists a search fills.
-struct Problem {
-    explicit Problem(Case source)
-        : c(std::move(source)), expected(brute_force(c)), lists(node_lists(c)) {
-        nodes = prepare_nodes<3>(lists, c.domain, storage);
-        std::vector<ListSize> sizes;
-        for (const NodeList& list : lists) sizes.push_back({list.n(), list.n_internal()});
-        layout = SlotLayout(sizes, c.ghost_rows);
-    }
-
-    Case c;
-    Expected expected;
-    std::vector<NodeList> lists;
-    PreparedStorage storage;
-    SearchNodes<3> nodes;
-    SlotLayout layout;
-};
-
-Problem problem(std::uint64_t seed, int max_nodes = 400) {
-    Case c = random_case(seed, {3, seed % 2 == 1, max_nodes, 50});
-    c.mode = SearchMode::gather_scatter;
-    return Problem(std::move(c));
-}
-
-bool filled(const Csr& rows, const Csr& halves, const Problem& p) {
-    return rows_equal({rows.offsets(), rows.values(), p.layout.n_lists(), 1}, p.expected) &&
-           pairs_equal({halves.offsets(), halves.values(), {}, 1}, p.expected);
-}
-
 TEST(Searcher, every_method_fills_rows_and_half_rows) {
     Search<3> search;
     Csr rows, halves;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
-        const Problem p = problem(seed);
+        const Problem p = random_problem(seed);
         for (const SearchMethod method : methods) {
             Report report;
             search.run(p.nodes, p.layout, {true, true, SearchMode::gather_scatter, method, {}},
@@ -60,7 +29,7 @@ TEST(Searcher, every_method_fills_rows_and_half_rows) {
 }
 
 TEST(Searcher, what_is_not_asked_for_is_cleared) {
-    const Problem p = problem(3);
+    const Problem p = random_problem(3);
     Search<3> search;
     for (const SearchMethod method : methods) {
         Csr rows, halves;
@@ -83,7 +52,7 @@ TEST(Searcher, what_is_not_asked_for_is_cleared) {
 }
 
 TEST(Searcher, a_search_over_budget_leaves_both_lists_as_they_were) {
-    const Problem first = problem(4), second = problem(8, 3000);
+    const Problem first = random_problem(4), second = random_problem(8, 3000);
     for (const SearchMethod method : methods) {
         Search<3> search;
         Csr rows, halves;
@@ -102,7 +71,7 @@ TEST(Searcher, a_search_over_budget_leaves_both_lists_as_they_were) {
 }
 
 TEST(Searcher, the_budget_counts_what_is_built_and_no_more) {
-    const Problem p = problem(6, 3000);
+    const Problem p = random_problem(6, 3000);
     const auto rows_bytes = static_cast<Offset>(p.expected.row_slots.size() * sizeof(Slot) +
                                                 p.expected.row_offsets.size() * sizeof(Offset));
     for (const SearchMethod method : methods) {
@@ -121,7 +90,7 @@ TEST(Searcher, the_budget_counts_what_is_built_and_no_more) {
 }
 
 TEST(Searcher, the_chosen_method_and_its_reason_stand_in_the_report) {
-    const Problem p = problem(5);
+    const Problem p = random_problem(5);
     for (const SearchMethod method : all_methods) {
         Search<3> search;
         Csr rows, halves;

@@ -16,6 +16,8 @@
 
 namespace connectivity::detail::device {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();  // kernels cannot call it
+
 KOKKOS_INLINE_FUNCTION double larger(double a, double b) { return a < b ? b : a; }
 KOKKOS_INLINE_FUNCTION double smaller(double a, double b) { return b < a ? b : a; }
 
@@ -25,7 +27,6 @@ struct Box {
     double lo[Dim], hi[Dim], reach2;
 
     KOKKOS_INLINE_FUNCTION void clear() {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         for (int d = 0; d < Dim; ++d) lo[d] = infinity, hi[d] = -infinity;
         reach2 = -1;
     }

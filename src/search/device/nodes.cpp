@@ -31,7 +31,6 @@ struct GatherLeaf {
     double* leaf_x;
     Box<Dim>* leaf;
     KOKKOS_INLINE_FUNCTION void operator()(Offset l) const {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         double* const x = leaf_x + l * problem.leaf_stride;
         Box<Dim> box;
         box.clear();
