@@ -19,12 +19,12 @@ public:
     T* data() { return data_.get(); }
     const T* data() const { return data_.get(); }
 
-    /// Room for n elements; the first `keep` survive growth.
+    /// Room for n elements; of those there are, the first `keep` survive growth.
     void reserve(std::size_t n, std::size_t keep = 0) {
         if (n <= capacity_) return;
         const std::size_t grown = std::max(n, capacity_ + capacity_ / 2);
         std::unique_ptr<T[]> fresh(new T[grown]);
-        std::copy_n(data_.get(), keep, fresh.get());
+        std::copy_n(data_.get(), std::min(keep, capacity_), fresh.get());
         data_ = std::move(fresh);
         capacity_ = grown;
     }
@@ -41,21 +41,25 @@ public:
     CandidateList<Dim> list{};
 
     /// Room for n candidates and what kernels write beyond; those in the list survive.
-    void reserve(int n) {
+    void reserve(int n, Form form) {
         const auto size = static_cast<std::size_t>(n) + list_slack,
                    keep = static_cast<std::size_t>(list.n);
         for (int d = 0; d < Dim; ++d) x_[d].reserve(size, keep), list.x[d] = x_[d].data();
         t_.reserve(size, keep), list.t = t_.data();
         label_.reserve(size, keep), list.label = label_.data();
+        if (form != Form::ellipsoids) return;
+        for (int k = 0; k < metric_size<Dim>; ++k)
+            metric_[k].reserve(size, keep), list.metric[k] = metric_[k].data();
     }
     std::size_t bytes() const {
         std::size_t sum = t_.bytes() + label_.bytes();
         for (int d = 0; d < Dim; ++d) sum += x_[d].bytes();
+        for (const auto& entry : metric_) sum += entry.bytes();
         return sum;
     }
 
 private:
-    Buffer<float> x_[Dim], t_;
+    Buffer<float> x_[Dim], t_, metric_[metric_size<Dim>];
     Buffer<int> label_;
 };
 
@@ -64,7 +68,7 @@ class LabelSort {
 public:
     /// Sorts `in` into `out` (room reserved), labels < 2^label_bits, and pads `out`.
     template <int Dim>
-    void operator()(const CandidateList<Dim>& in, int label_bits, bool uniform,
+    void operator()(const CandidateList<Dim>& in, int label_bits, Form form,
                     CandidateList<Dim>& out);
 
 private:
@@ -74,7 +78,7 @@ private:
 };
 
 template <int Dim>
-void LabelSort::operator()(const CandidateList<Dim>& in, int label_bits, bool uniform,
+void LabelSort::operator()(const CandidateList<Dim>& in, int label_bits, Form form,
                            CandidateList<Dim>& out) {
     const int n = in.n, passes = label_bits <= digit_bits       ? 1
                                  : label_bits <= 2 * digit_bits ? 2
@@ -102,13 +106,17 @@ void LabelSort::operator()(const CandidateList<Dim>& in, int label_bits, bool un
         const int source = from[k];
         const std::uint32_t place = count_[passes - 1][digit(source, passes - 1)]++;
         for (int d = 0; d < Dim; ++d) out.x[d][place] = in.x[d][source];
-        if (!uniform) out.t[place] = in.t[source];
+        if (form != Form::uniform) out.t[place] = in.t[source];
+        if (form == Form::ellipsoids)
+            for (int s = 1; s < metric_size<Dim>; ++s) out.metric[s][place] = in.metric[s][source];
         out.label[place] = in.label[source];
     }
     out.n = n;
     for (int k = n; k < n + list_slack; ++k) {
         for (int d = 0; d < Dim; ++d) out.x[d][k] = 1e30f;
         out.t[k] = 0;
+        if (form == Form::ellipsoids)
+            for (float* entry : out.metric) entry[k] = 0;
         out.label[k] = no_label;
     }
 }

@@ -23,12 +23,11 @@ struct Frame {
     double centre[Dim];
     double scale = 1;
     double error = 1;
-    bool uniform = false;
+    double position_error = 0;  ///< of differences of coordinates, beyond a few units
 
     static constexpr double largest_error = 1.0 / 16;
 
-    Frame(const ReachBox<Dim>& nodes, const GroupBoxes<Dim>& boxes)
-        : box(nodes), uniform(boxes.uniform()) {
+    Frame(const ReachBox<Dim>& nodes, const GroupBoxes<Dim>& boxes) : box(nodes) {
         double half = 0;
         for (int d = 0; d < Dim; ++d) {
             centre[d] = 0.5 * box.lo[d] + 0.5 * box.hi[d];
@@ -40,7 +39,8 @@ struct Frame {
         if (!(least > 0x1p-500) || !(least < 0x1p500)) return;  // scale² must be finite
         scale = std::exp2(-std::ilogb(least));
         const bool in_range = half * scale < 1e15 && boxes.all().reach2 * scale * scale < 1e30;
-        if (in_range) error = 0x1p-24 * (7 * half / least + 16) + 8 * boxes.fold_error() / least;
+        position_error = 3.5 * 0x1p-24 * half + 4 * boxes.fold_error();
+        if (in_range) error = 2 * position_error / least + 16 * 0x1p-24;
     }
 
     /// May the float tests be used?
@@ -50,13 +50,17 @@ struct Frame {
     float band() const { return static_cast<float>(1 + 3 * error); }
     double t_scale() const { return scale * scale * (1 - error); }
 
-    FrameMap<Dim> map(const double (&image)[Dim]) const {
+    MetricMap metric_map() const {
+        return {static_cast<float>(1 / (1 - error)), static_cast<float>(position_error * scale)};
+    }
+
+    FrameMap<Dim> map(const double (&image)[Dim], Form form) const {
         FrameMap<Dim> m;
         for (int d = 0; d < Dim; ++d) m.centre[d] = centre[d] - image[d];
         m.scale = scale;
         m.t_scale = t_scale();
         m.widen = widen();
-        m.uniform = uniform;
+        m.form = form;
         return m;
     }
 

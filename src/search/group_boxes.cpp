@@ -16,6 +16,7 @@ void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrde
     double* const data = data_.data() + leaf * leaf_stride;
     const double* const positions = nodes.positions.data();
     const double* const reach2 = has_common_reach_ ? nullptr : nodes.reach2.data();
+    const double* const tensors = nodes.H.size() > 0 ? nodes.H.data() : nullptr;
     ReachBox<Dim> box;
     box.clear();
     for (int k = 0; k < leaf_size; ++k) {
@@ -24,6 +25,11 @@ void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrde
             __builtin_prefetch(positions + static_cast<Offset>(slot[k + look_ahead]) * Dim + Dim -
                                1);
             if (reach2 != nullptr) __builtin_prefetch(reach2 + slot[k + look_ahead]);
+            if (tensors != nullptr) {
+                __builtin_prefetch(tensors + slot[k + look_ahead] * Offset{n_symmetric(Dim)});
+                __builtin_prefetch(tensors + (slot[k + look_ahead] + 1) * Offset{n_symmetric(Dim)} -
+                                   1);
+            }
         }
         if (slot[k] < 0) {
             for (int d = 0; d < Dim; ++d)
@@ -43,6 +49,35 @@ void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrde
     }
     leaves_(leaf) = box;
     store_bounds(leaf, box);
+    if (nodes.H.size() > 0) gather_shapes(nodes, slot, leaf);
+}
+
+/// P = (reach H / K)², the identity for scalar supports.
+template <int Dim>
+void shape_of(const double* H, double stretch, double (&shape)[n_symmetric(Dim)]) {
+    double h[Dim][Dim];
+    for (int a = 0, s = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b, ++s)
+            h[a][b] = h[b][a] = H[0] != 0.0 ? stretch * H[s] : a == b;
+    for (int a = 0, s = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b, ++s) {
+            shape[s] = 0;
+            for (int c = 0; c < Dim; ++c) shape[s] += h[a][c] * h[c][b];
+        }
+}
+
+template <int Dim>
+void GroupBoxes<Dim>::gather_shapes(const SearchNodes<Dim>& nodes, const Slot* slot, Offset leaf) {
+    constexpr int n_shape = n_symmetric(Dim);
+    float* const shapes = shapes_.data() + leaf * n_shape * leaf_size;
+    const double* const reach2 = data_.data() + leaf * leaf_stride + Dim * leaf_size;
+    for (int k = 0; k < leaf_size; ++k) {
+        if (slot[k] < 0) continue;
+        double shape[n_shape];
+        shape_of<Dim>(nodes.H.data() + static_cast<Offset>(slot[k]) * n_shape,
+                      std::sqrt(reach2[k] / nodes.extent2), shape);
+        for (int s = 0; s < n_shape; ++s) shapes[s * leaf_size + k] = static_cast<float>(shape[s]);
+    }
 }
 
 template <int Dim>
@@ -105,6 +140,11 @@ void GroupBoxes<Dim>::gather(const SearchNodes<Dim>& nodes, const GroupOrder& or
     ensure_capacity(data_, "search/groups/nodes", order.n_leaves() * leaf_stride);
     ensure_capacity(leaves_, "search/groups/leaves", order.n_leaves());
     ensure_capacity(tree_nodes_, "search/groups/tree", order.n_tree_nodes);
+    if (nodes.H.size() > 0)
+        ensure_capacity(shapes_, "search/groups/shapes",
+                        order.n_leaves() * leaf_size * n_symmetric(Dim));
+    else
+        shapes_ = {};
     bounds_stride_ = order.n_leaves() + leaf_box_slack;
     ensure_capacity(bounds_, "search/groups/bounds", bounds_stride_ * (2 * Dim + 1));
     find_common_reach(nodes);

@@ -73,7 +73,8 @@ public:
     const ReachBox<Dim>& tree_node(Offset k) const { return tree_nodes_(k); }
     const double* leaf_data(Offset l) const { return data_.data() + l * leaf_stride; }
     LeafArray leaf_array(const GroupOrder& order) const {
-        return {data_.data(), order.slot.data(), leaf_stride};
+        return {data_.data(), shapes_.size() > 0 ? shapes_.data() : nullptr, order.slot.data(),
+                leaf_stride};
     }
 
     double fold_error() const { return fold_error_; }
@@ -86,6 +87,7 @@ public:
 
     Offset bytes() const {
         return static_cast<Offset>((data_.size() + bounds_.size()) * sizeof(double) +
+                                   shapes_.size() * sizeof(float) +
                                    (leaves_.size() + tree_nodes_.size()) * sizeof(ReachBox<Dim>));
     }
 
@@ -93,10 +95,12 @@ private:
     void gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrder& order, Offset leaf);
     void gather_tree(const SearchNodes<Dim>& nodes, const GroupOrder& order, const ClassTree& tree);
     void find_common_reach(const SearchNodes<Dim>& nodes);
+    void gather_shapes(const SearchNodes<Dim>& nodes, const Slot* slot, Offset leaf);
     void store_bounds(Offset leaf, const ReachBox<Dim>& box);
     double spread_of(const ReachBox<Dim>& block) const;
 
     View<double> data_;           // by leaf: x[Dim][16], reach²[16] (-infinity: blind)
+    View<float> shapes_;          // by leaf: upper triangle [n_symmetric(Dim)][16]; see metric.hpp
     View<ReachBox<Dim>> leaves_;  // [n_leaves]
     View<double> bounds_;         // the same, as vector kernels read them
     Offset bounds_stride_ = 0;

@@ -11,7 +11,9 @@ void GroupWorker<Dim>::process(const GroupSweep<Dim>& sweep, int worker, Offset 
                                Offset last) {
     sweep_ = &sweep;
     see_ = significance(sweep.nodes);
-    superset_ = sweep.mode != SearchMode::gather_scatter || see_.H != nullptr;
+    form_ = sweep.mode != SearchMode::gather_scatter || see_.H != nullptr ? Form::ellipsoids
+            : sweep.boxes.uniform()                                       ? Form::uniform
+                                                                          : Form::balls;
     predicate_ = {see_.positions,
                   see_.reach2,
                   see_.H,
@@ -120,10 +122,10 @@ bool GroupWorker<Dim>::collect_image(const Frame<Dim>& frame, const double (&ima
     find_leaves(moved);
     if (n_leaves_ == 0) return true;
     if (found_.list.n / leaf_size + n_leaves_ > most) return false;
-    found_.reserve(found_.list.n + n_leaves_ * leaf_size);
+    found_.reserve(found_.list.n + n_leaves_ * leaf_size, form_);
     sweep_->kernels.collect(sweep_->boxes.leaf_array(sweep_->order), leaves_.data(), n_leaves_,
-                            frame.map(image), frame.inside(frame.box, sweep_->boxes.fold_error()),
-                            found_.list);
+                            frame.map(image, form_),
+                            frame.inside(frame.box, sweep_->boxes.fold_error()), found_.list);
     return true;
 }
 
@@ -147,24 +149,12 @@ bool GroupWorker<Dim>::find_candidates(const Frame<Dim>& frame) {
             if (!more) image[d] = lowest[d];
         }
     }
-    block_.reserve(found_.list.n);
-    sort_(found_.list, sweep_->label_bits, frame.uniform, block_.list);
+    block_.reserve(found_.list.n, form_);
+    sort_(found_.list, sweep_->label_bits, form_, block_.list);
+    if (form_ == Form::ellipsoids) sweep_->kernels.metrics(block_.list, frame.metric_map());
     counters.candidates += found_.list.n;
-    if (superset_) prefetch_candidates();
     const int* const label = block_.list.label;
     return images <= 1 || std::adjacent_find(label, label + block_.list.n) == label + block_.list.n;
-}
-
-/// The double predicate will read the caller's arrays at random.
-template <int Dim>
-void GroupWorker<Dim>::prefetch_candidates() const {
-    for (int k = 0; k < block_.list.n; ++k) {
-        const Offset slot = block_.list.label[k];
-        __builtin_prefetch(see_.positions + slot * Dim, 0, 2);
-        if (see_.H == nullptr) continue;
-        __builtin_prefetch(see_.H + slot * n_symmetric(Dim), 0, 2);
-        __builtin_prefetch(see_.H + (slot + 1) * n_symmetric(Dim) - 1, 0, 2);
-    }
 }
 
 template <int Dim>
@@ -174,9 +164,9 @@ void GroupWorker<Dim>::test_groups(const Range& range, const Frame<Dim>& frame) 
     if (range.only >= 0) return test_leaf(range.first, range.only, frame);
     for (Offset first = range.first; first < range.last; first += leaves_per_group) {
         const Range group{first, std::min(first + leaves_per_group, range.last), -1};
-        group_.reserve(block_.list.n);
+        group_.reserve(block_.list.n, form_);
         sweep_->kernels.filter(block_.list, frame.inside(box_of(group), slack), frame.widen(),
-                               frame.uniform, group_.list);
+                               form_, group_.list);
         for (Offset leaf = group.first; leaf < group.last; ++leaf) test_leaf(leaf, -1, frame);
     }
 }
@@ -187,14 +177,14 @@ void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame)
     const Slot* const slot = sweep_->order.slot.data() + leaf * leaf_size;
     const double* const data = boxes.leaf_data(leaf);
     const CandidateList<Dim>& wide = only < 0 ? group_.list : block_.list;
-    leaf_.reserve(wide.n);
+    leaf_.reserve(wide.n, form_);
     const ReachBox<Dim> box = only < 0 ? boxes.leaf(leaf) : frame.box;
-    sweep_->kernels.filter(wide, frame.inside(box, boxes.fold_error()), frame.widen(),
-                           frame.uniform, leaf_.list);
+    sweep_->kernels.filter(wide, frame.inside(box, boxes.fold_error()), frame.widen(), form_,
+                           leaf_.list);
 
     LeafTest<Dim> test;
     RowSink::Wanted wanted[leaf_size];
-    int own[leaf_size], place[leaf_size];
+    int own[leaf_size];
     test.n_nodes = 0;
     std::fill_n(own, leaf_size, 0);
     for (int k = 0; k < leaf_size; ++k) {
@@ -209,20 +199,20 @@ void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame)
         wanted[at] = sweep_->sink.wanted(slot[k]);
     }
     const int words = n_words(leaf_.list.n);
-    sweep_->kernels.places(own, leaf_.list.label, leaf_.list.n, place);
+    sweep_->kernels.places(own, leaf_.list.label, leaf_.list.n, test.place);
     for (int at = 0; at < test.n_nodes; ++at)
         test.first_word[at] = wanted[at] == RowSink::Wanted::all     ? 0
-                              : wanted[at] == RowSink::Wanted::later ? place[at] / word_size
+                              : wanted[at] == RowSink::Wanted::later ? test.place[at] / word_size
                                                                      : words;
     test.band = frame.band();
-    test.uniform = frame.uniform;
-    test.superset = superset_;
+    test.form = form_;
+    test.own = predicate_.own, test.others = predicate_.others;
     bits_.reserve(static_cast<std::size_t>(leaf_size) * words);
     doubts_.reserve(static_cast<std::size_t>(leaf_size) * words);
     const int n_doubts = sweep_->kernels.test(test, leaf_.list, bits_.data(), doubts_.data());
     settle_doubts(own, words, n_doubts);
     for (int at = 0; at < test.n_nodes; ++at)
-        keep_row(own[at], bits_.data() + static_cast<Offset>(at) * words, words, place[at],
+        keep_row(own[at], bits_.data() + static_cast<Offset>(at) * words, words, test.place[at],
                  wanted[at]);
 }
 
@@ -230,14 +220,10 @@ void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame)
 template <int Dim>
 void GroupWorker<Dim>::settle_doubts(const int* own, int words, int n_doubts) {
     for (int k = 0; k < n_doubts; ++k) {
-        const Doubt& doubt = doubts_.data()[k];
-        std::uint64_t& word = bits_.data()[static_cast<Offset>(doubt.node) * words + doubt.word];
-        for (std::uint64_t left = doubt.bits; left != 0; left &= left - 1) {
-            const int bit = __builtin_ctzll(left),
-                      other = leaf_.list.label[doubt.word * word_size + bit];
-            if (see_(own[doubt.node], other, SearchMode::gather_scatter))
-                word |= std::uint64_t{1} << bit;
-        }
+        Doubt& doubt = doubts_.data()[k];
+        sweep_->kernels.confirm(predicate_, own[doubt.node],
+                                leaf_.list.label + doubt.word * word_size, 1, &doubt.bits);
+        bits_.data()[static_cast<Offset>(doubt.node) * words + doubt.word] |= doubt.bits;
     }
     counters.doubts += n_doubts;
 }
@@ -250,11 +236,6 @@ void GroupWorker<Dim>::keep_row(Slot slot, std::uint64_t* bits, int words, int p
     bits[own_word] &= ~(std::uint64_t{1} << (place % word_size));
     if (wanted == RowSink::Wanted::later)
         bits[own_word] &= ~std::uint64_t{0} << (place % word_size);
-    if (superset_) {  // float tests only narrowed
-        const int first = wanted == RowSink::Wanted::all ? 0 : own_word;
-        sweep_->kernels.confirm(predicate_, slot, leaf_.list.label + first * word_size,
-                                words - first, bits + first);
-    }
     sweep_->sink.store(worker_, {slot, bits, leaf_.list.label, words, place});
 }
 
@@ -271,7 +252,7 @@ void GroupWorker<Dim>::process_exactly(const Range& range) {
     find_leaves(box);
     auto& list = leaf_.list;
     list.n = 0;
-    leaf_.reserve(n_leaves_ * leaf_size);
+    leaf_.reserve(n_leaves_ * leaf_size, form_);
     for (int near = 0; near < n_leaves_; ++near)
         for (int k = 0; k < leaf_size; ++k) {
             const Slot other =

@@ -58,7 +58,6 @@ private:
     void test_leaf(Offset leaf, int only, const Frame<Dim>& frame);
     void settle_doubts(const int* own, int words, int n_doubts);
     void keep_row(Slot slot, std::uint64_t* bits, int words, int place, RowSink::Wanted wanted);
-    void prefetch_candidates() const;
 
     void process_exactly(const Range& range);
 
@@ -68,7 +67,7 @@ private:
     const GroupSweep<Dim>* sweep_ = nullptr;
     Significance<Dim> see_{};
     PredicateData<Dim> predicate_{};
-    bool superset_ = false;  // float tests only narrow; every hit is decided in double
+    Form form_ = Form::balls;
     int worker_ = 0;
     CandidateStore<Dim> found_, block_, group_, leaf_;
     LabelSort sort_;

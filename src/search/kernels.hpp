@@ -19,12 +19,25 @@ constexpr int word_size = 64;   ///< candidates tested into one word of bits
 constexpr int list_slack = 64;  ///< entries that a kernel may write beyond the end of a list
 constexpr int no_label = 0x7fffffff;
 
+/// What decides whether two nodes are neighbours, from the least to the most work.
+enum class Form {
+    uniform,    ///< balls of one radius
+    balls,      ///< the larger ball of the two
+    ellipsoids  ///< either side by its metric: tensors, and modes in which only one side counts
+};
+
+/// A constant and the upper triangle of a quadratic form; see metric.hpp.
+template <int Dim>
+constexpr int metric_size = 1 + Dim*(Dim + 1) / 2;
+
 /// Candidates, sorted by label once `sort_by_label` ran; padded to whole words with points at
 /// infinity.
 template <int Dim>
 struct CandidateList {
     float* x[Dim];
-    float* t;    ///< own thresholds; untouched where all nodes have one reach
+    float* t;  ///< own thresholds; untouched where all nodes have one reach
+    /// For ellipsoids; entry 0 is not set, and the others are of the shape, until `metrics` ran.
+    float* metric[metric_size<Dim>];
     int* label;  ///< slots
     int n;
 };
@@ -43,12 +56,20 @@ struct FrameMap {
     double scale;        ///< frame units per length
     double t_scale;      ///< threshold per squared length: scale² * (1 - error)
     float widen;         ///< 1 + what box tests need beyond a threshold
-    bool uniform;        ///< all nodes have the same reach
+    Form form;
 };
 
-/// Nodes in search order, by leaves of 16: for each leaf x[Dim][16], reach²[16].
+/// How shapes become metrics in a frame.
+struct MetricMap {
+    float unit;            ///< squared reach in the frame's unit, per threshold
+    float position_error;  ///< of a difference of coordinates
+};
+
+/// Nodes in search order, by leaves of 16: for each leaf x[Dim][16], reach²[16], and the upper
+/// triangle of the shape [n_symmetric(Dim)][16], which is absent if all are balls.
 struct LeafArray {
     const double* nodes;
+    const float* shapes;
     const int* label;
     int stride;  ///< doubles a leaf
 };
@@ -75,8 +96,10 @@ struct LeafTest {
     int n_nodes;
     int first_word[leaf_size];  ///< words before it are not wanted
     float band;                 ///< upper edge of the error band over its lower edge
-    bool uniform;
-    bool superset;  ///< report every candidate that may be significant as a bit, and no doubts
+    Form form;
+    // For ellipsoids, which find x and the metric in the list:
+    int place[leaf_size];
+    bool own, others;  ///< whether it counts that a node sees the other, that the other sees it
 };
 
 /// What the predicate reads: Significance<Dim> without Kokkos. H is null if all nodes are scalar;
@@ -104,8 +127,10 @@ struct Kernels {
     void (*collect)(const LeafArray&, const int* leaves, int n_leaves, const FrameMap<Dim>&,
                     const FrameBox<Dim>&, CandidateList<Dim>& out);
     /// Keeps the order: candidates of `in` within reach of the box, packed to the front of `out`.
-    void (*filter)(const CandidateList<Dim>& in, const FrameBox<Dim>&, float widen, bool uniform,
+    void (*filter)(const CandidateList<Dim>& in, const FrameBox<Dim>&, float widen, Form form,
                    CandidateList<Dim>& out);
+    /// Makes metrics of the shapes in a list.
+    void (*metrics)(CandidateList<Dim>& list, const MetricMap&);
     /// bits[node * n_words + word]; returns the number of doubts written.
     int (*test)(const LeafTest<Dim>&, const CandidateList<Dim>&, std::uint64_t* bits,
                 Doubt* doubts);

@@ -14,7 +14,11 @@ struct Avx512 {
     static F sub(F a, F b) { return _mm512_sub_ps(a, b); }
     static F mul(F a, F b) { return _mm512_mul_ps(a, b); }
     static F fma(F a, F b, F c) { return _mm512_fmadd_ps(a, b, c); }
+    static F div(F a, F b) { return _mm512_div_ps(a, b); }
+    static F sqrt(F a) { return _mm512_sqrt_ps(a); }
+    static F min(F a, F b) { return _mm512_min_ps(a, b); }
     static F max(F a, F b) { return _mm512_max_ps(a, b); }
+    static void store(float* p, F a) { _mm512_storeu_ps(p, a); }
     static unsigned le(F a, F b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
     static constexpr int wide_lanes = 8;
     using D = __m512d;

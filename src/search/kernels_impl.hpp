@@ -4,16 +4,22 @@
 /// instruction set's file, after its V; everything lives in an anonymous namespace, so that no two
 /// instruction sets share a function.
 ///
-/// V has: lanes, F (vector of floats), load, set, sub, mul, fma, max, le (mask), pack (store the
-/// lanes of a mask to the front; may write all lanes), wide_lanes, load_wide, set_wide, gather_rows
-/// (columns of dense rows), nearest and the arithmetic for vectors D of doubles, deposit (the k-th
-/// bit goes to where the k-th set bit of a word is), load_doubles (16 doubles -> floats in a
-/// frame), places.
+/// V has: lanes, F (vector of floats), load, store, set, sub, mul, div, fma, min, max, sqrt, le
+/// (mask), pack (store the lanes of a mask to the front; may write all lanes), wide_lanes,
+/// load_wide, set_wide, gather_rows (columns of dense rows), nearest and the arithmetic for vectors
+/// D of doubles, deposit (the k-th bit goes to where the k-th set bit of a word is), load_doubles
+/// (16 doubles -> floats in a frame), places.
 
-#include "kernels.hpp"
+#include "metric.hpp"
 
 namespace connectivity::detail {
 namespace {
+
+/// Does entry s of an upper triangle lie on the diagonal?
+template <int Dim>
+constexpr bool is_diagonal(int s) {
+    return s == 0 || s == metric_size<Dim> - 2 || (Dim == 3 && s == 3);
+}
 
 /// Squared distance of points to a box.
 template <class V, int Dim>
@@ -27,8 +33,15 @@ inline typename V::F box_distance2(const typename V::F (&x)[Dim], const typename
     return sum;
 }
 
+/// A vector of candidates. What their form does not need is not set.
+template <class V, int Dim>
+struct Candidates {
+    typename V::F x[Dim], t, metric[metric_size<Dim>];
+    const int* label;
+};
+
 /// Appends points whose distance to a box is within reach.
-template <class V, int Dim, bool Uniform>
+template <class V, int Dim, Form form>
 struct BoxFilter {
     typename V::F lo[Dim], hi[Dim], own, widen;
 
@@ -37,22 +50,26 @@ struct BoxFilter {
         for (int d = 0; d < Dim; ++d) lo[d] = V::set(box.lo[d]), hi[d] = V::set(box.hi[d]);
     }
 
-    inline void append(const typename V::F (&x)[Dim], typename V::F t, const int* label,
-                       CandidateList<Dim>& out) const {
-        const auto reach = Uniform ? own : V::max(own, V::mul(t, widen));
-        const unsigned keep = V::le(box_distance2<V, Dim>(x, lo, hi), reach);
-        for (int d = 0; d < Dim; ++d) V::pack(out.x[d] + out.n, keep, x[d]);
-        if (!Uniform) V::pack(out.t + out.n, keep, t);
-        V::pack(out.label + out.n, keep, label);
+    inline void append(const Candidates<V, Dim>& c, CandidateList<Dim>& out) const {
+        const auto reach = form == Form::uniform ? own : V::max(own, V::mul(c.t, widen));
+        const unsigned keep = V::le(box_distance2<V, Dim>(c.x, lo, hi), reach);
+        for (int d = 0; d < Dim; ++d) V::pack(out.x[d] + out.n, keep, c.x[d]);
+        if (form != Form::uniform) V::pack(out.t + out.n, keep, c.t);
+        if (form == Form::ellipsoids)
+            for (int k = 0; k < metric_size<Dim>; ++k)
+                V::pack(out.metric[k] + out.n, keep, c.metric[k]);
+        V::pack(out.label + out.n, keep, c.label);
         out.n += V::count(keep);
     }
 };
 
-template <int Dim>
+template <int Dim, Form form>
 inline void pad(CandidateList<Dim>& list) {
     for (int k = list.n; k < list.n + list_slack; ++k) {
         for (int d = 0; d < Dim; ++d) list.x[d][k] = 1e30f;
         list.t[k] = 0;
+        if (form == Form::ellipsoids)
+            for (float* entry : list.metric) entry[k] = 0;
         list.label[k] = no_label;
     }
 }
@@ -81,19 +98,29 @@ int near(const LeafBoxes& boxes, long first, long last, const BoxQuery<Dim>& que
     return n;
 }
 
-template <class V, int Dim, bool Uniform>
+template <class V, int Dim, Form form>
 void collect_as(const LeafArray& array, const int* leaves, int n_leaves, const FrameMap<Dim>& map,
                 const FrameBox<Dim>& box, CandidateList<Dim>& out) {
-    const BoxFilter<V, Dim, Uniform> filter(box, map.widen);
+    constexpr int n_shape = metric_size<Dim> - 1;
+    const BoxFilter<V, Dim, form> filter(box, map.widen);
+    Candidates<V, Dim> c{};
     for (int k = 0; k < n_leaves; ++k) {
         const double* const nodes = array.nodes + static_cast<long>(leaves[k]) * array.stride;
         const int* const label = array.label + static_cast<long>(leaves[k]) * leaf_size;
         for (int v = 0; v < leaf_size; v += V::lanes) {
-            typename V::F x[Dim], t = V::set(0);
             for (int d = 0; d < Dim; ++d)
-                x[d] = V::load_doubles(nodes + d * leaf_size + v, map.centre[d], map.scale);
-            if (!Uniform) t = V::load_doubles(nodes + Dim * leaf_size + v, 0.0, map.t_scale);
-            filter.append(x, t, label + v, out);
+                c.x[d] = V::load_doubles(nodes + d * leaf_size + v, map.centre[d], map.scale);
+            if (form != Form::uniform)
+                c.t = V::load_doubles(nodes + Dim * leaf_size + v, 0.0, map.t_scale);
+            if (form == Form::ellipsoids)
+                for (int s = 0; s < n_shape; ++s)
+                    c.metric[1 + s] =
+                        array.shapes != nullptr
+                            ? V::load(array.shapes +
+                                      (static_cast<long>(leaves[k]) * n_shape + s) * leaf_size + v)
+                            : V::set(is_diagonal<Dim>(s) ? 1 : 0);
+            c.label = label + v;
+            filter.append(c, out);
         }
     }
 }
@@ -101,36 +128,86 @@ void collect_as(const LeafArray& array, const int* leaves, int n_leaves, const F
 template <class V, int Dim>
 void collect(const LeafArray& array, const int* leaves, int n_leaves, const FrameMap<Dim>& map,
              const FrameBox<Dim>& box, CandidateList<Dim>& out) {
-    map.uniform ? collect_as<V, Dim, true>(array, leaves, n_leaves, map, box, out)
-                : collect_as<V, Dim, false>(array, leaves, n_leaves, map, box, out);
+    switch (map.form) {
+        case Form::uniform:
+            return collect_as<V, Dim, Form::uniform>(array, leaves, n_leaves, map, box, out);
+        case Form::balls:
+            return collect_as<V, Dim, Form::balls>(array, leaves, n_leaves, map, box, out);
+        case Form::ellipsoids:
+            return collect_as<V, Dim, Form::ellipsoids>(array, leaves, n_leaves, map, box, out);
+    }
 }
 
-template <class V, int Dim, bool Uniform>
+template <class V, int Dim, Form form>
 void filter_as(const CandidateList<Dim>& in, const FrameBox<Dim>& box, float widen,
                CandidateList<Dim>& out) {
-    const BoxFilter<V, Dim, Uniform> filter(box, widen);
+    const BoxFilter<V, Dim, form> filter(box, widen);
     CandidateList<Dim> list = out;  // a local copy keeps the length in a register
     list.n = 0;
+    Candidates<V, Dim> c{};
     for (int k = 0; k < in.n; k += V::lanes) {
-        typename V::F x[Dim];
-        for (int d = 0; d < Dim; ++d) x[d] = V::load(in.x[d] + k);
-        filter.append(x, Uniform ? V::set(0) : V::load(in.t + k), in.label + k, list);
+        for (int d = 0; d < Dim; ++d) c.x[d] = V::load(in.x[d] + k);
+        if (form != Form::uniform) c.t = V::load(in.t + k);
+        if (form == Form::ellipsoids)
+            for (int m = 0; m < metric_size<Dim>; ++m) c.metric[m] = V::load(in.metric[m] + k);
+        c.label = in.label + k;
+        filter.append(c, list);
     }
     // The padding of the last vector lies at infinity and never passes.
     out.n = list.n;
-    pad(out);
+    pad<Dim, form>(out);
 }
 
 template <class V, int Dim>
-void filter(const CandidateList<Dim>& in, const FrameBox<Dim>& box, float widen, bool uniform,
+void filter(const CandidateList<Dim>& in, const FrameBox<Dim>& box, float widen, Form form,
             CandidateList<Dim>& out) {
-    uniform ? filter_as<V, Dim, true>(in, box, widen, out)
-            : filter_as<V, Dim, false>(in, box, widen, out);
+    switch (form) {
+        case Form::uniform: return filter_as<V, Dim, Form::uniform>(in, box, widen, out);
+        case Form::balls: return filter_as<V, Dim, Form::balls>(in, box, widen, out);
+        case Form::ellipsoids: return filter_as<V, Dim, Form::ellipsoids>(in, box, widen, out);
+    }
 }
 
+/// The metric of a node whose float test would not be good, or that sees nobody.
+template <int Dim>
+inline void set_ball_metric(CandidateList<Dim>& list, int k, const MetricMap& map) {
+    const bool blind = list.t[k] < 0;
+    const float wide =
+        blind ? 0 : __builtin_sqrtf(list.t[k] * map.unit) + map.position_error + 1e-18f;
+    list.metric[0][k] = blind ? 2 : 0;
+    for (int s = 0; s + 1 < metric_size<Dim>; ++s)
+        list.metric[1 + s][k] = is_diagonal<Dim>(s) && !blind ? (1 - 0x1p-20f) / (wide * wide) : 0;
+}
+
+template <class V, int Dim>
+void metrics(CandidateList<Dim>& list, const MetricMap& map) {
+    constexpr unsigned all = (1u << V::lanes) - 1;
+    for (int k = 0; k < list.n; k += V::lanes) {
+        const auto t = V::mul(V::load(list.t + k), V::set(map.unit));
+        auto trace = V::set(0);
+        for (int s = 0; s + 1 < metric_size<Dim>; ++s)
+            if (is_diagonal<Dim>(s))
+                trace = V::fma(V::load(list.metric[1 + s] + k), V::set(1), trace);
+        const auto moved =
+            V::mul(V::set(position_error * map.position_error), V::sqrt(V::div(trace, t)));
+        const auto error = V::fma(V::set(shape_error), trace, moved);
+        const auto per_error = V::div(V::set(1), error), scale = V::div(per_error, t);
+        unsigned good = V::le(error, V::set(largest_metric_error)) & V::le(V::set(1e-30f), t);
+        V::store(list.metric[0] + k, V::sub(V::set(0), per_error));
+        for (int s = 0; s + 1 < metric_size<Dim>; ++s) {
+            const auto twice = is_diagonal<Dim>(s) ? scale : V::mul(V::set(2), scale);
+            float* const entry = list.metric[1 + s] + k;
+            V::store(entry, V::mul(V::load(entry), twice));
+        }
+        for (good |= ~all; ~good != 0; good |= good + 1)
+            set_ball_metric(list, k + __builtin_ctz(~good), map);
+    }
+}
+
+/// Balls: the larger threshold decides.
 template <class V, int Dim, bool Uniform>
-int test_as(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint64_t* bits,
-            Doubt* doubts) {
+int test_balls(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint64_t* bits,
+               Doubt* doubts) {
     const int words = n_words(list.n);
     const auto band = V::set(leaf.band);
     int n_doubts = 0;
@@ -153,8 +230,54 @@ int test_as(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint
                 sure |= static_cast<std::uint64_t>(V::le(d2, lower)) << v;
                 maybe |= static_cast<std::uint64_t>(V::le(d2, upper)) << v;
             }
-            bits[node * words + word] = leaf.superset ? maybe : sure;
-            if (maybe != sure && !leaf.superset) doubts[n_doubts++] = {node, word, maybe & ~sure};
+            bits[node * words + word] = sure;
+            if (maybe != sure) doubts[n_doubts++] = {node, word, maybe & ~sure};
+        }
+    }
+    return n_doubts;
+}
+
+/// The value of a metric, of one node or of several, for the products of a difference.
+template <class V, int Dim>
+inline typename V::F value(const typename V::F (&metric)[metric_size<Dim>],
+                           const typename V::F (&product)[metric_size<Dim> - 1]) {
+    auto sum = metric[0];
+    for (int s = 0; s + 1 < metric_size<Dim>; ++s) sum = V::fma(metric[1 + s], product[s], sum);
+    return sum;
+}
+
+/// Ellipsoids: either side decides, or one.
+template <class V, int Dim, bool Others>
+int test_ellipsoids(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint64_t* bits,
+                    Doubt* doubts) {
+    constexpr int size = metric_size<Dim>;
+    const int words = n_words(list.n);
+    const auto certain = V::set(-1), possible = V::set(1);
+    int n_doubts = 0;
+    for (int node = 0; node < leaf.n_nodes; ++node) {
+        const int place = leaf.place[node];
+        typename V::F x[Dim], own[size];
+        for (int d = 0; d < Dim; ++d) x[d] = V::set(list.x[d][place]);
+        for (int m = 0; m < size; ++m)
+            own[m] = V::set(leaf.own ? list.metric[m][place] : m == 0 ? 2 : 0);
+        for (int word = leaf.first_word[node]; word < words; ++word) {
+            std::uint64_t sure = 0, maybe = 0;
+            for (int v = 0; v < word_size; v += V::lanes) {
+                const int k = word * word_size + v;
+                typename V::F r[Dim], product[size - 1], other[size];
+                for (int d = 0; d < Dim; ++d) r[d] = V::sub(x[d], V::load(list.x[d] + k));
+                for (int a = 0, s = 0; a < Dim; ++a)
+                    for (int b = a; b < Dim; ++b) product[s++] = V::mul(r[a], r[b]);
+                auto q = value<V, Dim>(own, product);
+                if (Others) {
+                    for (int m = 0; m < size; ++m) other[m] = V::load(list.metric[m] + k);
+                    q = V::min(value<V, Dim>(other, product), q);  // q if the other is NaN
+                }
+                sure |= static_cast<std::uint64_t>(V::le(q, certain)) << v;
+                maybe |= static_cast<std::uint64_t>(V::le(q, possible)) << v;
+            }
+            bits[node * words + word] = sure;
+            if (maybe != sure) doubts[n_doubts++] = {node, word, maybe & ~sure};
         }
     }
     return n_doubts;
@@ -163,8 +286,13 @@ int test_as(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint
 template <class V, int Dim>
 int test(const LeafTest<Dim>& leaf, const CandidateList<Dim>& list, std::uint64_t* bits,
          Doubt* doubts) {
-    return leaf.uniform ? test_as<V, Dim, true>(leaf, list, bits, doubts)
-                        : test_as<V, Dim, false>(leaf, list, bits, doubts);
+    switch (leaf.form) {
+        case Form::uniform: return test_balls<V, Dim, true>(leaf, list, bits, doubts);
+        case Form::balls: return test_balls<V, Dim, false>(leaf, list, bits, doubts);
+        default:
+            return leaf.others ? test_ellipsoids<V, Dim, true>(leaf, list, bits, doubts)
+                               : test_ellipsoids<V, Dim, false>(leaf, list, bits, doubts);
+    }
 }
 
 /// H of one node or of several, and the difference it is applied to.
@@ -265,8 +393,8 @@ int count(const std::uint64_t* bits, int place) {
 
 template <class V, int Dim>
 constexpr Kernels<Dim> make_kernels(const char* name) {
-    return {name,      near<V, Dim>, collect<V, Dim>, filter<V, Dim>, test<V, Dim>, confirm<V, Dim>,
-            expand<V>, count<V>,     V::places};
+    return {name,         near<V, Dim>,    collect<V, Dim>, filter<V, Dim>, metrics<V, Dim>,
+            test<V, Dim>, confirm<V, Dim>, expand<V>,       count<V>,       V::places};
 }
 
 }  // namespace

@@ -25,7 +25,14 @@ struct Portable {
     static F sub(F a, F b) { return a - b; }
     static F mul(F a, F b) { return a * b; }
     static F fma(F a, F b, F c) { return a * b + c; }
+    static F div(F a, F b) { return a / b; }
+    static F sqrt(F a) {
+        for (int k = 0; k < lanes; ++k) a[k] = __builtin_sqrtf(a[k]);
+        return a;
+    }
+    static F min(F a, F b) { return a < b ? a : b; }
     static F max(F a, F b) { return a > b ? a : b; }
+    static void store(float* p, F a) { std::memcpy(p, &a, sizeof a); }
     static unsigned le(F a, F b) {
 #if defined(__SSE2__)
         return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(a <= b)));

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <map/support.hpp>
-#include <support/random.hpp>
+#include <support/ellipsoid.hpp>
 #include <support/random_case.hpp>
 
 namespace connectivity::test {
@@ -16,51 +16,9 @@ namespace {
 
 constexpr double K = 2.5;
 
-/// An ellipsoid by its axes: orthonormal directions and half lengths.
-struct Ellipsoid {
-    double direction[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    double half[3] = {1, 1, 1};
-
-    Ellipsoid(Random& random, int dim, double ratio) {
-        const double scale = random.log_uniform(1e-3, 1e3);
-        for (double& a : half)
-            a = scale * random.pick({1.0, 1 / ratio, random.log_uniform(1 / ratio, 1)});
-        for (int a = 0; a < dim; ++a)
-            for (int b = a + 1; b < dim; ++b) turn(a, b, random.uniform(0, 6.28), dim);
-    }
-
-    void turn(int a, int b, double angle, int dim) {
-        for (int d = 0; d < dim; ++d) {
-            const double p = direction[a][d], q = direction[b][d];
-            direction[a][d] = std::cos(angle) * p - std::sin(angle) * q;
-            direction[b][d] = std::sin(angle) * p + std::cos(angle) * q;
-        }
-    }
-
-    /// Packed H with |H r| <= K.
-    void pack(int dim, double* packed) const {
-        for (int i = 0, at = 0; i < dim; ++i)
-            for (int j = i; j < dim; ++j, ++at) {
-                packed[at] = 0;
-                for (int k = 0; k < dim; ++k)
-                    packed[at] += direction[k][i] * direction[k][j] * K / half[k];
-            }
-    }
-
-    /// Farthest point along u, and how far that is.
-    double farthest(int dim, const double* u, double* point) const {
-        double width2 = 0;
-        for (int d = 0; d < dim; ++d) point[d] = 0;
-        for (int k = 0; k < dim; ++k) {
-            double along = 0;
-            for (int d = 0; d < dim; ++d) along += direction[k][d] * u[d];
-            width2 += half[k] * half[k] * along * along;
-            for (int d = 0; d < dim; ++d) point[d] += half[k] * half[k] * along * direction[k][d];
-        }
-        for (int d = 0; d < dim; ++d) point[d] /= std::sqrt(width2);
-        return std::sqrt(width2);
-    }
-};
+Ellipsoid any_ellipsoid(Random& random, int dim, double ratio) {
+    return {random, dim, ratio, random.log_uniform(1e-3, 1e3)};
+}
 
 void unit_vector(Random& random, int dim, const Ellipsoid& e, double (&u)[3]) {
     const int axis = random.below(dim);  // near an axis, or anywhere
@@ -87,10 +45,10 @@ double eta(int dim, const double* packed, const double* r) {
 
 template <int Dim>
 void holds_all_within_the_skin(Random& random) {
-    const Ellipsoid e(random, Dim, random.pick({1.0, 2.0, 1e3, 1e6}));
+    const Ellipsoid e = any_ellipsoid(random, Dim, random.pick({1.0, 2.0, 1e3, 1e6}));
     const double skin = e.half[0] * random.log_uniform(1e-6, 1e3);
     double H[6], W[6], u[3], point[3];
-    e.pack(Dim, H);
+    e.pack(Dim, K, H);
     ASSERT_TRUE(widen_tensor<Dim>(H, K, skin, W));
     for (int k = 0; k < 40; ++k) {
         unit_vector(random, Dim, e, u);
@@ -133,14 +91,14 @@ TEST(WidenedTensor, is_the_outer_ellipsoid_of_least_trace) {
 
 template <int Dim>
 void growth_is_enough(Random& random, double& worst) {
-    Ellipsoid e(random, Dim, random.pick({1.0, 2.0, 1e3}));
+    Ellipsoid e = any_ellipsoid(random, Dim, random.pick({1.0, 2.0, 1e3}));
     double before[6], after[6], u[3], point[3];
-    e.pack(Dim, before);
+    e.pack(Dim, K, before);
     const Ellipsoid old = e;
     const double change = random.log_uniform(1e-6, 1);
     if (Dim > 1) e.turn(0, 1 + random.below(Dim - 1), change * random.uniform(-1, 1), Dim);
     for (int k = 0; k < Dim; ++k) e.half[k] *= 1 + change * random.uniform(-0.5, 1);
-    e.pack(Dim, after);
+    e.pack(Dim, K, after);
     const double bound = K * tensor_growth<Dim>(before, after);
     double most = 0;
     for (int k = 0; k < 60; ++k) {
@@ -166,12 +124,12 @@ TEST(TensorGrowth, is_never_less_than_along_any_direction) {
 TEST(TensorGrowth, of_an_ellipsoid_that_shrinks_is_zero) {
     Random random(3);
     for (int k = 0; k < 300; ++k) {
-        Ellipsoid e(random, 3, random.pick({1.0, 2.0, 100.0}));
+        Ellipsoid e = any_ellipsoid(random, 3, random.pick({1.0, 2.0, 100.0}));
         double before[6], after[6];
-        e.pack(3, before);
+        e.pack(3, K, before);
         const double shrink = random.log_uniform(1e-6, 0.5);
         for (double& half : e.half) half *= 1 - shrink * random.uniform(0.5, 1);
-        e.pack(3, after);
+        e.pack(3, K, after);
         ASSERT_EQ(tensor_growth<3>(before, after), 0);
         ASSERT_GT(tensor_growth<3>(after, before), 0);
     }
