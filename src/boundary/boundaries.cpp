@@ -168,7 +168,8 @@ void Boundaries::update(ConnectivityMap& map, std::span<const NodeList> lists,
     const double ms = making.ms();
     map.rebuild(spare_->lists, options);
     publish(ms);
-    if (ghosts.cull && !options.stores_all_rows() && (options.rows || options.pairs))
+    if (ghosts.cull && !options.stores_all_rows() && options.skin == 0 &&
+        (options.rows || options.pairs))
         cull(map, ghosts.rule);
 }
 

@@ -58,36 +58,37 @@ void flag_named(ConnectivityMap& map, const View<Slot>& flags) {
 
 }  // namespace
 
-Offset Boundaries::cull(ConnectivityMap& map, CullRule rule) {
+Offset Boundaries::cull(ConnectivityMap& map, CullRule rule,
+                        std::span<PairFieldBase* const> fields) {
     const Stopwatch culling;
     State& state = *state_;
     check_may_cull(map, state.ghosts);
-    const Offset n_slots = map.layout().n_slots();
+    const auto n_slots = static_cast<std::size_t>(map.layout().n_slots());
     Offset removed = 0;
     detail::launch("cull", [&] {
-        ensure_capacity(keep_, "boundary/keep", n_slots);
-        ensure_capacity(old2new_, "boundary/old2new", n_slots);
+        ensure_capacity(keep_, "boundary/keep", static_cast<Offset>(n_slots));
+        ensure_capacity(old2new_, "boundary/old2new", static_cast<Offset>(n_slots));
         flag_named(map, keep_);
         state.ghosts.keep_needed(keep_, rule);
         removed = state.ghosts.renumber(keep_, old2new_);
+        if (removed == 0) return;
+        std::vector<NodeList> kept = state.lists_after(keep_.data());
+        map.patch(std::span<const Slot>(keep_.data(), n_slots),
+                  std::span<const Slot>(old2new_.data(), n_slots), fields);
+        state.drop(keep_, old2new_, kept);
     });
-    if (removed > 0) {
-        const auto n = static_cast<std::size_t>(n_slots);
-        map.patch(std::span<const Slot>(keep_.data(), n),
-                  std::span<const Slot>(old2new_.data(), n));
-        const std::vector<Offset> first = state.ghosts.layout().list_offset();
-        for (std::size_t k = 0; k < state.nodes.size(); ++k)
-            state.nodes[k].drop(keep_.data() + first[k], old2new_.data() + first[k]);
-        state.ghosts.drop(keep_, old2new_);
-        state.make_lists();
-    }
-    auto& entry = report_.entry("cull");
-    entry = {
-        "cull",      "caller", "ghosts that no internal node needs",
-        true,        false,    static_cast<Offset>((keep_.size() + old2new_.size()) * sizeof(Slot)),
-        culling.ms()};
-    report_.counter("ghosts_culled") += removed;
+    report_cull(removed, culling.ms());
     return removed;
+}
+
+void Boundaries::report_cull(Offset removed, double ms) {
+    auto& entry = report_.entry("cull");
+    entry.asked_by = "caller";
+    entry.reason = "ghosts that no internal node needs";
+    entry.built = true;
+    entry.bytes = static_cast<Offset>((keep_.size() + old2new_.size()) * sizeof(Slot));
+    entry.ms = ms;
+    report_.counter("ghosts_culled") += removed;
 }
 
 }  // namespace connectivity

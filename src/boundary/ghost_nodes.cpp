@@ -110,13 +110,14 @@ void GhostNodes::drop(const Slot* keep, const Slot* old2new) {
     n = kept;
 }
 
-NodeList GhostNodes::list() const {
-    const ConstView<double> x = Kokkos::subview(x_, first(n * dim)),
-                            support = Kokkos::subview(support_, first(n * per_node()));
+NodeList GhostNodes::list(Offset n_nodes) const {
+    const ConstView<double> x = Kokkos::subview(x_, first(n_nodes * dim)),
+                            support = Kokkos::subview(support_, first(n_nodes * per_node()));
     NodeList nodes = tensor ? NodeList::with_H(name_, dim, n_internal, x, support, kernel_extent)
                             : NodeList::with_h(name_, dim, n_internal, x, support, kernel_extent);
-    if (n > n_internal) nodes.set_owners(owners());
-    if (has_ids_) nodes.set_global_ids(Kokkos::subview(ids_, first(n)));
+    if (n_nodes > n_internal)
+        nodes.set_owners(Kokkos::subview(owner_, first(n_nodes - n_internal)));
+    if (has_ids_) nodes.set_global_ids(Kokkos::subview(ids_, first(n_nodes)));
     return nodes;
 }
 

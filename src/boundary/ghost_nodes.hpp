@@ -39,7 +39,8 @@ public:
     /// Drops ghosts with keep = 0. keep and old2new are those of this list.
     void drop(const Slot* keep, const Slot* old2new);
 
-    NodeList list() const;
+    /// The first n nodes.
+    NodeList list(Offset n_nodes) const;
 
     Offset n = 0, n_internal = 0;
     int dim = 3;
@@ -48,9 +49,6 @@ public:
     const double* positions() const { return x_.data(); }
     const double* support() const { return support_.data(); }
     const std::string& name() const { return name_; }
-    ConstView<Slot> owners() const {
-        return Kokkos::subview(owner_, std::pair<std::size_t, std::size_t>(0, n - n_internal));
-    }
     Offset bytes() const;
 
 private:

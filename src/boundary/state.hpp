@@ -42,7 +42,29 @@ struct Boundaries::State {
 
     void make_lists() {
         lists.clear();
-        for (const auto& list : nodes) lists.push_back(list.list());
+        for (const auto& list : nodes) lists.push_back(list.list(list.n));
+    }
+
+    /// What `lists` will be once ghosts with keep = 0 are gone.
+    std::vector<NodeList> lists_after(const Slot* keep) const {
+        std::vector<NodeList> after;
+        for (const auto& list : nodes) {
+            after.push_back(list.list(std::count(keep, keep + list.n, 1)));
+            keep += list.n;
+        }
+        return after;
+    }
+
+    /// Drops ghosts with keep = 0. Cannot fail.
+    void drop(const View<Slot>& keep, const View<Slot>& old2new, std::vector<NodeList>& after) {
+        Offset first = 0;
+        for (auto& list : nodes) {
+            const Offset n = list.n;
+            list.drop(keep.data() + first, old2new.data() + first);
+            first += n;
+        }
+        ghosts.drop(keep, old2new);
+        lists.swap(after);
     }
 
     double kernel_extent() const {

@@ -41,7 +41,9 @@ struct HostField {
 };
 
 struct GhostOptions {
-    bool cull = true;  ///< where the map allows it: no rows of ghosts and none derived from them
+    /// Where the map allows it: no rows of ghosts, nothing derived from them, and no skin, which a
+    /// patch would end.
+    bool cull = true;
     CullRule rule = CullRule::controls_as_made;
 };
 
@@ -82,7 +84,8 @@ public:
     /// how many. Pairwise fields of the caller keep the values of pairs that stay. Throws
     /// Error{stale} if the map's nodes are not lists(), Error{not_built} if the map has neither
     /// rows nor pairs, Error{argument} if it stores or uses rows of ghosts, Error{memory}.
-    Offset cull(ConnectivityMap& map, CullRule rule = CullRule::controls_as_made);
+    Offset cull(ConnectivityMap& map, CullRule rule = CullRule::controls_as_made,
+                std::span<PairFieldBase* const> fields = {});
 
     /// Internal nodes moved, or their supports changed: takes them and makes the images of the same
     /// nodes anew, in place. Throws Error{argument} if sizes are not those of the last update.
@@ -140,6 +143,7 @@ private:
     void append_way(int boundary, int way, const std::vector<Offset>& n_before,
                     const MapOptions& options);
     void publish(double ms);
+    void report_cull(Offset removed, double ms);
     template <int Dim>
     Offset move_inside_in(const View<double>& positions, std::span<const HostField> fields) const;
 
