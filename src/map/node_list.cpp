@@ -63,4 +63,20 @@ NodeList NodeList::with_H(std::string name, int dim, Offset n_internal, ConstVie
     return list;
 }
 
+NodeList& NodeList::set_global_ids(ConstView<std::int64_t> ids) {
+    if (static_cast<Offset>(ids.size()) != n_)
+        refuse(name_, std::to_string(ids.size()) + " global ids, must be one for each of " +
+                          std::to_string(n_) + " nodes");
+    global_ids_ = std::move(ids);
+    return *this;
+}
+
+NodeList& NodeList::set_owners(ConstView<Slot> owner) {
+    if (static_cast<Offset>(owner.size()) != n_ghosts())
+        refuse(name_, std::to_string(owner.size()) + " owners, must be one for each of " +
+                          std::to_string(n_ghosts()) + " ghosts");
+    owners_ = std::move(owner);
+    return *this;
+}
+
 }  // namespace connectivity

@@ -19,7 +19,14 @@ Offset NodePairList::bytes() const {
 }
 
 NodePairList::View<> NodePairList::view() const {
-    return {half_rows_.offsets(), half_rows_.values(), {}, generation_, stamp_, coupling_.values()};
+    return {half_rows_.offsets(),
+            half_rows_.values(),
+            {},
+            generation_,
+            stamp_,
+            coupling_.values(),
+            slots_,
+            ranks_};
 }
 
 void NodePairList::set_coupling(NodeCoupling f) {
@@ -60,8 +67,7 @@ NodePairList::View<> NodePairList::expanded_view() {
             "map/pairs/expand",
             Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, half_rows_.n_rows()),
             [=](const Offset i) {
-                for (Offset k = offsets(i); k < offsets(i + 1); ++k)
-                    first(k) = static_cast<Slot>(i);
+                for (Offset k = offsets(i); k < offsets(i + 1); ++k) first(k) = expanded.node(i);
             });
         HostExec().fence();
         first_generation_ = generation_;

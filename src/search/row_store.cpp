@@ -17,6 +17,8 @@ void RowStore::begin(const SlotLayout& layout, bool rows, bool halves, BitKernel
     record_bytes_ = sizeof(ArenaRow);
     if (rows && layout.n_lists() > 1)
         ensure_capacity(by_list_, "search/groups/by_list", layout.n_rows() * layout.n_lists());
+    // Rows of nodes that are not active are never recorded.
+    if (rows && layout.n_lists() > 1 && layout.active().size() > 0) Kokkos::deep_copy(by_list_, 0);
 }
 
 void RowStore::begin_sweep(Offset arena_bytes, Offset expected_bytes) {
@@ -67,7 +69,7 @@ void RowStore::store(int worker_number, const FoundRow& found) {
     // Only the number matters while counting, unless entries must be told apart.
     if (only_counted() && row >= 0 && (!whole || layout_->n_lists() == 1)) {
         const int n = kernels_.count(found.bits + first, most);
-        record(found.slot, nullptr, n, n - before);
+        record(found.slot, nullptr, whole ? n : 0, n - before);
         return;
     }
     Slot* const out = room(worker, most);
@@ -76,7 +78,10 @@ void RowStore::store(int worker_number, const FoundRow& found) {
     if (row < 0) n = keep_stored(out, n);
     if (whole) count_lists(row, out, n);
     if (out != worker.row.data()) worker.arena.end_row(n);
-    record(found.slot, out, n, n - before);
+    if (whole)
+        record(found.slot, out, n, n - before);
+    else
+        record(found.slot, out + n, 0, n);
 }
 
 void RowStore::record(Slot slot, const Slot* first, int n, int later) {
@@ -94,8 +99,9 @@ Counts RowStore::counts() const {
 
 /// Asks for a row early: rows lie anywhere in the arenas.
 void prefetch_row(const ArenaRow& row) {
-    const Slot n = std::min<Slot>(row.length, 512);
-    for (Slot k = 0; k < n + slots_per_line; k += slots_per_line) __builtin_prefetch(row.first + k);
+    const Slot n = std::min<Slot>(std::max(row.length, row.later), 512);
+    const Slot* const first = row.first + row.length - std::max(row.length, row.later);
+    for (Slot k = 0; k < n + slots_per_line; k += slots_per_line) __builtin_prefetch(first + k);
 }
 
 /// Copies the rows of slots [first, last) into both lists; rows of consecutive slots lie side by

@@ -22,8 +22,8 @@ namespace connectivity::detail {
 /// Where a row lies in an arena, and what it holds.
 struct ArenaRow {
     const Slot* first;  ///< of no meaning while counting
-    Slot length;        ///< entries
-    Slot later;         ///< how many of them, at the end, belong to the half row
+    Slot length;        ///< entries of the row; 0 where it is not wanted
+    Slot later;         ///< entries of the half row: it ends where the row ends
 };
 
 class RowStore final : public RowSink {
@@ -48,7 +48,7 @@ public:
     void transfer(Products products) const;
 
     /// Entries counted for a slot, whatever was wanted.
-    Offset entries(Slot slot) const { return row_(slot).length; }
+    Offset entries(Slot slot) const { return std::max(row_(slot).length, row_(slot).later); }
 
     /// Gives the arenas back.
     void release();

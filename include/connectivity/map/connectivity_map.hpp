@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// Who interacts with whom, over node lists: sorted rows and the list of unique pairs, each only if
-/// asked for.
+/// Who interacts with whom, over node lists: sorted rows, the list of unique pairs, overlap,
+/// intersections, an order that does not depend on storage; each only if asked for.
 ///
 /// Invariants: a row is ascending, never names its own node, and j is in row(i) iff i is in row(j)
 /// where both are stored; every pair has at least one stored row and stands once. Results are the
-/// same bits for any number of threads, any search method and any instruction set. A rebuild that
-/// throws leaves everything as it was. Cost: O(N) time for bounded neighbour numbers; rows 4 bytes
-/// an entry + 8 per node and list, pairs 4 bytes each + 8 per node; storage is kept
+/// same bits for any number of threads, any search method and any instruction set. A rebuild or
+/// patch that throws leaves everything as it was. Cost: O(N) time for bounded neighbour numbers;
+/// rows 4 bytes an entry + 8 per node and list, pairs 4 bytes each + 8 per node; storage is kept
 /// from rebuild to rebuild.
 
 #include <memory>
@@ -15,34 +15,17 @@
 #include <string>
 #include <vector>
 
-#include <connectivity/base/box.hpp>
 #include <connectivity/base/report.hpp>
+#include <connectivity/map/key_order.hpp>
+#include <connectivity/map/map_options.hpp>
 #include <connectivity/map/node_list.hpp>
 #include <connectivity/map/node_pair_list.hpp>
+#include <connectivity/map/node_traversal.hpp>
 #include <connectivity/map/rows.hpp>
-#include <connectivity/search/search.hpp>
 
 namespace connectivity {
 
-struct MapOptions {
-    bool rows = true;
-    bool pairs = true;
-    bool ghost_rows = false;  ///< rows for ghosts too, and pairs between ghosts
-    SearchMode mode = SearchMode::gather_scatter;  ///< pairs exist only for gather_scatter
-    SearchMethod method = SearchMethod::automatic;
-    bool spatial_order =
-        false;      ///< keep spatial_order() available (free where the search sorts nodes anyway)
-    Domain domain;  ///< open on all axes unless told
-    Budget budget;
-    /// Length by which all supports are widened, so that the lists stay complete while nodes drift
-    /// and supports grow by no more than it: 0, or in [1e-100, 1e100]. Rows and pairs then hold
-    /// every neighbour and some nodes close to it; the host's kernel, or a test of the distance,
-    /// sorts these out. h = 0 reaches as far as the skin. The widened support, too, must fit half a
-    /// periodic box, and tensors must have a condition number below 7e12.
-    double skin = 0;
-
-    friend bool operator==(const MapOptions&, const MapOptions&) = default;
-};
+class PairFieldBase;
 
 /// Whether a skin pays: over the life of a map.
 struct ReuseCounts {
@@ -63,6 +46,25 @@ public:
     /// scatter, skin out of range), nonfinite / support / not_spd (list, node, value), box,
     /// half_box, too_many, budget, memory; the map is then as it was before.
     void rebuild(std::span<const NodeList> lists, const MapOptions& options);
+
+    /// Drops and renumbers nodes, as after culling ghosts: every list becomes what a rebuild on the
+    /// nodes that stay would give, without a search; the generation goes on. keep [n_slots] is 0
+    /// or 1; old2new [n_slots] has the new node id within the list, of no meaning where keep is 0:
+    /// in each list a permutation of those that stay, internal nodes first. Coupling and the
+    /// fields handed over keep the values of surviving pairs; fields must belong to the present
+    /// pair list, and all others go stale.
+    ///
+    /// Two differences to a rebuild: overlap forgets dropped nodes but not what they witnessed,
+    /// and key order keeps the keys of the last rebuild. With a skin the next needs_rebuild is
+    /// true. Throws Error: not_built, argument (list, node, value), stale, memory; the map and the
+    /// fields are then as before.
+    void patch(std::span<const Slot> keep, std::span<const Slot> old2new,
+               std::span<PairFieldBase* const> fields = {});
+
+    /// Leaves pairs out of rows and pairs, as if MapOptions::exclude had been set. Throws
+    /// Error{argument} where overlap or intersections were built, which would go wrong; otherwise
+    /// as `patch`.
+    void remove_pairs(const PairPredicate& leave_out, std::span<PairFieldBase* const> fields = {});
 
     /// How far `lists` are from those of the last rebuild: twice the largest displacement plus the
     /// largest growth of a support radius (of an ellipsoid that left the old one: the largest
@@ -112,6 +114,31 @@ public:
     const NodePairList& pairs() const;
     NodePairList& pairs();
 
+    /// Rows of all nodes, laid out as rows(): the nodes that see a common node with it, each node
+    /// being in its own sight. So a row holds all neighbours, too. Witnesses are nodes, also
+    /// ghosts: supports that overlap where no node is do not count.
+    RowsView<> overlap() const;
+
+    /// By pair: the common neighbours of the two and both themselves, ascending (key order: by
+    /// rank). With IntersectionKind::in_segment those whose perpendicular foot on the line between
+    /// the two lies outside the closed segment are left out.
+    IntersectionView<> intersection() const;
+
+    /// Common neighbours of any two nodes and both themselves, ascending slots. With `lists` those
+    /// of the last rebuild, in_segment only. Throws Error{not_built} without rows, Error{argument}
+    /// for a slot that has none.
+    std::vector<Slot> common_neighbours(Slot a, Slot b) const;
+    std::vector<Slot> common_neighbours(Slot a, Slot b, std::span<const NodeList> lists) const;
+    /// Neighbours of a or b, ascending slots. Throws as common_neighbours.
+    std::vector<Slot> all_neighbours(Slot a, Slot b) const;
+
+    /// Throws Error{not_built} unless the last rebuild had ListOrder::key.
+    KeyOrderView<> key_order() const;
+
+    /// Node ids of a list in the order in force: internal nodes ascending, in key order all nodes
+    /// by rank. Throws Error{argument} for a list that is none.
+    NodeTraversal traversal(int list) const;
+
     /// Slots in an order that keeps neighbours close in memory, [n_slots]: a permutation. A host
     /// that reorders its nodes by it (list by list, see below) makes its own loops and later builds
     /// faster. Throws Error{not_built} unless MapOptions::spatial_order was set.
@@ -128,6 +155,15 @@ private:
     void launch(const char* what, const Body& body) const;
     template <int Dim>
     void rebuild_in(std::span<const NodeList> lists, const MapOptions& options);
+    template <int Dim>
+    void search_in(std::span<const NodeList> lists, const MapOptions& options,
+                   const SlotLayout& layout, ConstView<Slot>& order, Report& report);
+    static void announce_derived(const MapOptions& options, Report& report);
+    void report_bytes();
+    void publish_pairs();
+    void check_list(const char* call, int list) const;
+    void require_fields(const char* call, std::span<PairFieldBase* const> fields) const;
+    void finish_patch(std::span<PairFieldBase* const> fields, double ms);
     void traverse(const char* call, std::span<const NodeList> lists, const MapOptions& options,
                   RowFunction f);
     template <int Dim>
@@ -146,9 +182,10 @@ private:
     std::vector<Offset> n_internal_;
     int dim_ = 0;
     MapOptions options_;
-    Csr rows_{"map/rows"};
+    Csr rows_{"map/rows"}, overlap_{"map/overlap"}, intersection_{"map/intersection"};
     NodePairList pairs_;
-    ConstView<Slot> order_;
+    KeyOrder key_order_;
+    ConstView<Slot> order_;  // spatial order
     Report report_;
     ReuseCounts reuse_;
 };

@@ -29,6 +29,16 @@ public:
     static NodeList with_H(std::string name, int dim, Offset n_internal,
                            ConstView<double> positions, ConstView<double> H, double kernel_extent);
 
+    /// Names of the nodes that do not depend on how they are stored, the last word in key order:
+    /// ids [n], host. Throws Error{argument} if the shape disagrees.
+    NodeList& set_global_ids(ConstView<std::int64_t> ids);
+
+    /// Which ghosts are images of nodes of this list: owner [n_ghosts], host, a node id in [0,
+    /// n_internal), or -1 for a ghost of its own. An image has the Morton key and the global id of
+    /// its owner and does not enlarge the box that the keys number. Throws Error{argument} if the
+    /// shape disagrees; the values are checked by rebuilds in key order.
+    NodeList& set_owners(ConstView<Slot> owner);
+
     const std::string& name() const { return name_; }
     int dim() const { return dim_; }
     Offset n() const { return n_; }
@@ -41,6 +51,8 @@ public:
     ConstView<double> positions() const { return positions_; }  ///< [n * dim]
     ConstView<double> h() const { return h_; }                  ///< [n], empty for tensors
     ConstView<double> H() const { return H_; }  ///< [n * n_symmetric(dim)], empty for scalars
+    ConstView<std::int64_t> global_ids() const { return global_ids_; }  ///< [n], or empty
+    ConstView<Slot> owners() const { return owners_; }                  ///< [n_ghosts], or empty
 
 private:
     NodeList() = default;
@@ -52,6 +64,8 @@ private:
     double kernel_extent_ = 2;
     bool has_tensor_ = false;
     ConstView<double> positions_, h_, H_;
+    ConstView<std::int64_t> global_ids_;
+    ConstView<Slot> owners_;
 };
 
 }  // namespace connectivity

@@ -2,10 +2,11 @@
 #pragma once
 /// The list of interacting pairs: unordered {i, j}, each once, i before j, sorted by (i, j).
 ///
-/// Storage is half rows: per slot i the sorted partners after it, 4 bytes a pair and 8 a slot. The
-/// i of a pair is found by binary search, or read from an array that is expanded only for callers
-/// who want a flat list. A stamp, unique in the process, tells this list from all others and from
-/// its own older generations: what belongs to it remembers the stamp.
+/// "Before" means the lower slot, in key order the lower rank. Storage is half rows: half row r
+/// holds the partners after the node with slot (rank) r, ascending, 4 bytes a pair and 8 a slot.
+/// The i of a pair is found by binary search, or read from an array that is expanded only for
+/// callers who want a flat list. A stamp, unique in the process, tells this list from all others
+/// and from its own older generations: what belongs to it remembers the stamp.
 
 #include <string>
 
@@ -23,13 +24,15 @@ public:
     template <class Space = HostMemory>
     struct View {
         ConstView<Offset, Space>
-            offsets;  ///< [n_slots + 1]: pairs whose first slot is i are [offsets(i), offsets(i+1))
+            offsets;  ///< [n_slots + 1]: pairs of half row r are [offsets(r), offsets(r + 1))
         ConstView<Slot, Space> j;  ///< [n_pairs]
         ConstView<Slot, Space> i;  ///< [n_pairs], empty unless expanded
         Generation generation = 0;
         Stamp stamp = 0;
         /// [n_pairs], in [0, 1]; empty means 1 for all pairs
         ConstView<double, Space> coupling = {};
+        /// [n_slots], only in key order: slot by rank and rank by slot; empty in slot order
+        ConstView<Slot, Space> slots = {}, ranks = {};
 
         KOKKOS_INLINE_FUNCTION Offset size() const { return static_cast<Offset>(j.extent(0)); }
         KOKKOS_INLINE_FUNCTION Offset n_slots() const {
@@ -37,33 +40,43 @@ public:
         }
         KOKKOS_INLINE_FUNCTION const Slot* data() const { return j.data(); }
 
+        /// The node that half row r belongs to.
+        KOKKOS_INLINE_FUNCTION Slot node(Offset r) const {
+            return slots.extent(0) > 0 ? slots(r) : static_cast<Slot>(r);
+        }
+        /// The half row of a node.
+        KOKKOS_INLINE_FUNCTION Slot half_row(Slot slot) const {
+            return ranks.extent(0) > 0 ? ranks(slot) : slot;
+        }
+
         struct Pair {
             Slot i, j;
         };
-        /// Pair k. Costs a binary search over slots unless i is expanded: loop over slots instead
-        /// where you can.
+        /// Pair k. Costs a binary search over half rows unless i is expanded: loop over half rows
+        /// instead where you can.
         KOKKOS_INLINE_FUNCTION Pair operator[](Offset k) const { return {first(k), j(k)}; }
 
         /// Number of the pair {a, b}, in either orientation; -1 if there is none. Binary search in
         /// a half row.
         KOKKOS_INLINE_FUNCTION Offset find(Slot a, Slot b) const {
-            const Slot lo = a < b ? a : b, hi = a < b ? b : a;
-            if (lo < 0 || hi >= n_slots()) return -1;
+            if (a < 0 || b < 0 || a >= n_slots() || b >= n_slots()) return -1;
+            const Slot row_a = half_row(a), row_b = half_row(b);
+            const Slot lo = row_a < row_b ? row_a : row_b, hi = row_a < row_b ? row_b : row_a;
             Offset begin = offsets(lo), end = offsets(lo + 1);
             while (begin < end) {
                 const Offset middle = begin + (end - begin) / 2;
-                if (j(middle) < hi)
+                if (half_row(j(middle)) < hi)
                     begin = middle + 1;
                 else
                     end = middle;
             }
-            return begin < offsets(lo + 1) && j(begin) == hi ? begin : -1;
+            return begin < offsets(lo + 1) && half_row(j(begin)) == hi ? begin : -1;
         }
 
     private:
         KOKKOS_INLINE_FUNCTION Slot first(Offset k) const {
             if (i.extent(0) > 0) return i(k);
-            Offset begin = 0, end = n_slots();  // the last slot whose offset is <= k
+            Offset begin = 0, end = n_slots();  // the last half row whose offset is <= k
             while (end - begin > 1) {
                 const Offset middle = begin + (end - begin) / 2;
                 if (offsets(middle) <= k)
@@ -71,7 +84,7 @@ public:
                 else
                     end = middle;
             }
-            return static_cast<Slot>(begin);
+            return node(begin);
         }
     };
 
@@ -116,6 +129,7 @@ private:
     void require_built(const char* call) const;
 
     Csr half_rows_;
+    ConstView<Slot> slots_, ranks_;  // of key order
     PairCoupling coupling_;
     Stamp stamp_ = 0;
     connectivity::View<Slot> first_;   // storage of expanded i

@@ -43,4 +43,22 @@ private:
     }
 };
 
+/// For every pair the nodes that are neighbours of both, and the two themselves.
+template <class Space = HostMemory>
+struct IntersectionView {
+    ConstView<Offset, Space> offsets;  ///< [n_pairs + 1]
+    ConstView<Slot, Space> slots;      ///< [n_entries]
+    bool in_segment = false;           ///< only those between the two
+    Generation generation = 0;
+
+    KOKKOS_INLINE_FUNCTION Offset n_pairs() const {
+        return offsets.extent(0) > 0 ? static_cast<Offset>(offsets.extent(0)) - 1 : 0;
+    }
+    KOKKOS_INLINE_FUNCTION Offset size() const { return static_cast<Offset>(slots.extent(0)); }
+    KOKKOS_INLINE_FUNCTION const Slot* data() const { return slots.data(); }
+    KOKKOS_INLINE_FUNCTION typename RowsView<Space>::Range operator[](Offset pair) const {
+        return {slots.data() + offsets(pair), slots.data() + offsets(pair + 1)};
+    }
+};
+
 }  // namespace connectivity

@@ -4,12 +4,13 @@
 ///
 /// Invariants: slots of list k are [list_offset[k], list_offset[k+1]), internal nodes first; rows
 /// of list k are [row_offset[k], row_offset[k+1]) and belong to its first n_stored nodes. Row
-/// numbers have no gaps.
+/// numbers have no gaps: where only some nodes are active, the others keep their rows, which stay
+/// empty.
 
 #include <algorithm>
 #include <vector>
 
-#include <connectivity/base/types.hpp>
+#include <connectivity/base/spaces.hpp>
 
 namespace connectivity {
 
@@ -20,7 +21,9 @@ struct ListSize {
 class SlotLayout {
 public:
     SlotLayout() : list_offset_{0}, row_offset_{0} {}
-    SlotLayout(const std::vector<ListSize>& lists, bool ghost_rows);
+    /// active: [n_slots], 0 or 1, host; empty: all are.
+    SlotLayout(const std::vector<ListSize>& lists, bool ghost_rows,
+               ConstView<std::uint8_t> active = {});
 
     int n_lists() const { return static_cast<int>(list_offset_.size()) - 1; }
     Offset n_slots() const { return list_offset_.back(); }
@@ -34,13 +37,15 @@ public:
         const int list = list_of_row(row);
         return list_offset_[list] + (row - row_offset_[list]);
     }
-    /// Row of a slot, -1 if it has none.
+    /// Row of a slot, -1 if nothing is to be stored in it: a ghost without a row, or not active.
     Offset row_of_slot(Offset slot) const {
+        if (active_.data() != nullptr && active_(slot) == 0) return -1;
         const int list = list_of_slot(slot);
         const Offset row = row_offset_[list] + (slot - list_offset_[list]);
         return row < row_offset_[list + 1] ? row : -1;
     }
     bool is_stored(Offset slot) const { return row_of_slot(slot) >= 0; }
+    ConstView<std::uint8_t> active() const { return active_; }  ///< [n_slots]; empty: all
 
     friend bool operator==(const SlotLayout&, const SlotLayout&) = default;
 
@@ -54,6 +59,7 @@ private:
     }
 
     std::vector<Offset> list_offset_, row_offset_;
+    ConstView<std::uint8_t> active_;
 };
 
 }  // namespace connectivity
