@@ -6,15 +6,20 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <new>
+#include <type_traits>
 #include <utility>
 
 #include "kernels.hpp"
 
 namespace connectivity::detail {
 
-/// Grow-only memory, not initialised.
+/// Grow-only memory, not initialised, from the start of a cache line: wide loads that straddle
+/// lines take twice as long.
 template <class T>
 class Buffer {
+    static_assert(std::is_trivial_v<T>);
+
 public:
     T* data() { return data_.get(); }
     const T* data() const { return data_.get(); }
@@ -23,7 +28,7 @@ public:
     void reserve(std::size_t n, std::size_t keep = 0) {
         if (n <= capacity_) return;
         const std::size_t grown = std::max(n, capacity_ + capacity_ / 2);
-        std::unique_ptr<T[]> fresh(new T[grown]);
+        Memory fresh(static_cast<T*>(::operator new(grown * sizeof(T), line)));
         std::copy_n(data_.get(), std::min(keep, capacity_), fresh.get());
         data_ = std::move(fresh);
         capacity_ = grown;
@@ -31,7 +36,13 @@ public:
     std::size_t bytes() const { return capacity_ * sizeof(T); }
 
 private:
-    std::unique_ptr<T[]> data_;
+    static constexpr std::align_val_t line{64};
+    struct Free {
+        void operator()(T* data) const { ::operator delete(data, line); }
+    };
+    using Memory = std::unique_ptr<T, Free>;
+
+    Memory data_;
     std::size_t capacity_ = 0;
 };
 
@@ -42,14 +53,12 @@ public:
 
     /// Room for n candidates and what kernels write beyond; those in the list survive.
     void reserve(int n, Form form) {
-        const auto size = static_cast<std::size_t>(n) + list_slack,
-                   keep = static_cast<std::size_t>(list.n);
-        for (int d = 0; d < Dim; ++d) x_[d].reserve(size, keep), list.x[d] = x_[d].data();
-        t_.reserve(size, keep), list.t = t_.data();
-        label_.reserve(size, keep), list.label = label_.data();
+        for (int d = 0; d < Dim; ++d) list.x[d] = room(x_[d], d, n);
+        list.t = room(t_, Dim, n);
+        list.label = room(label_, Dim + 1, n);
         if (form != Form::ellipsoids) return;
         for (int k = 0; k < metric_size<Dim>; ++k)
-            metric_[k].reserve(size, keep), list.metric[k] = metric_[k].data();
+            list.metric[k] = room(metric_[k], Dim + 2 + k, n);
     }
     std::size_t bytes() const {
         std::size_t sum = t_.bytes() + label_.bytes();
@@ -59,11 +68,20 @@ public:
     }
 
 private:
+    /// Fields lie apart modulo a page: side by side they would share the sets of the cache.
+    template <class T>
+    T* room(Buffer<T>& buffer, int field, int n) {
+        const auto shift = static_cast<std::size_t>(5 * 64 / sizeof(T) * field);
+        buffer.reserve(shift + static_cast<std::size_t>(n) + list_slack,
+                       shift + static_cast<std::size_t>(list.n));
+        return buffer.data() + shift;
+    }
+
     Buffer<float> x_[Dim], t_, metric_[metric_size<Dim>];
     Buffer<int> label_;
 };
 
-/// Radix sort by label: the permutation first, then every field is moved once.
+/// Radix sort by label: the permutation first, then every field is moved once, one by one.
 class LabelSort {
 public:
     /// Sorts `in` into `out` (room reserved), labels < 2^label_bits, and pads `out`.
@@ -98,19 +116,18 @@ void LabelSort::operator()(const CandidateList<Dim>& in, int label_bits, Form fo
     from_.reserve(n), to_.reserve(n);
     int *from = from_.data(), *to = to_.data();
     for (int k = 0; k < n; ++k) from[k] = k;
-    for (int pass = 0; pass + 1 < passes; ++pass) {
+    for (int pass = 0; pass < passes; ++pass) {
         for (int k = 0; k < n; ++k) to[count_[pass][digit(from[k], pass)]++] = from[k];
         std::swap(from, to);
     }
-    for (int k = 0; k < n; ++k) {
-        const int source = from[k];
-        const std::uint32_t place = count_[passes - 1][digit(source, passes - 1)]++;
-        for (int d = 0; d < Dim; ++d) out.x[d][place] = in.x[d][source];
-        if (form != Form::uniform) out.t[place] = in.t[source];
-        if (form == Form::ellipsoids)
-            for (int s = 1; s < metric_size<Dim>; ++s) out.metric[s][place] = in.metric[s][source];
-        out.label[place] = in.label[source];
-    }
+    const auto move = [=](const auto* source, auto* target) {
+        for (int k = 0; k < n; ++k) target[k] = source[from[k]];
+    };
+    for (int d = 0; d < Dim; ++d) move(in.x[d], out.x[d]);
+    if (form != Form::uniform) move(in.t, out.t);
+    for (int s = 1; s < metric_size<Dim> && form == Form::ellipsoids; ++s)
+        move(in.metric[s], out.metric[s]);
+    move(in.label, out.label);
     out.n = n;
     for (int k = n; k < n + list_slack; ++k) {
         for (int d = 0; d < Dim; ++d) out.x[d][k] = 1e30f;

@@ -52,32 +52,28 @@ void GroupBoxes<Dim>::gather_leaf(const SearchNodes<Dim>& nodes, const GroupOrde
     if (nodes.H.size() > 0) gather_shapes(nodes, slot, leaf);
 }
 
-/// P = (reach H / K)², the identity for scalar supports.
-template <int Dim>
-void shape_of(const double* H, double stretch, double (&shape)[n_symmetric(Dim)]) {
-    double h[Dim][Dim];
-    for (int a = 0, s = 0; a < Dim; ++a)
-        for (int b = a; b < Dim; ++b, ++s)
-            h[a][b] = h[b][a] = H[0] != 0.0 ? stretch * H[s] : a == b;
-    for (int a = 0, s = 0; a < Dim; ++a)
-        for (int b = a; b < Dim; ++b, ++s) {
-            shape[s] = 0;
-            for (int c = 0; c < Dim; ++c) shape[s] += h[a][c] * h[c][b];
-        }
-}
-
+/// P = (reach H / K)², the identity for scalar supports; columns of 16, for the compiler's vectors.
 template <int Dim>
 void GroupBoxes<Dim>::gather_shapes(const SearchNodes<Dim>& nodes, const Slot* slot, Offset leaf) {
     constexpr int n_shape = n_symmetric(Dim);
-    float* const shapes = shapes_.data() + leaf * n_shape * leaf_size;
     const double* const reach2 = data_.data() + leaf * leaf_stride + Dim * leaf_size;
+    float* shape = shapes_.data() + leaf * n_shape * leaf_size;
+    double h[Dim][Dim][leaf_size], stretch[leaf_size];
+    for (int k = 0; k < leaf_size; ++k)
+        stretch[k] = std::sqrt(std::fabs(reach2[k]) / nodes.extent2);
     for (int k = 0; k < leaf_size; ++k) {
-        if (slot[k] < 0) continue;
-        double shape[n_shape];
-        shape_of<Dim>(nodes.H.data() + static_cast<Offset>(slot[k]) * n_shape,
-                      std::sqrt(reach2[k] / nodes.extent2), shape);
-        for (int s = 0; s < n_shape; ++s) shapes[s * leaf_size + k] = static_cast<float>(shape[s]);
+        const double* const H = nodes.H.data() + std::max(slot[k], 0) * Offset{n_shape};
+        for (int a = 0, s = 0; a < Dim; ++a)
+            for (int b = a; b < Dim; ++b, ++s)
+                h[a][b][k] = h[b][a][k] = H[0] != 0.0 ? stretch[k] * H[s] : a == b;
     }
+    for (int a = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b, shape += leaf_size)
+            for (int k = 0; k < leaf_size; ++k) {
+                double sum = 0;
+                for (int c = 0; c < Dim; ++c) sum += h[a][c][k] * h[c][b][k];
+                shape[k] = static_cast<float>(sum);
+            }
 }
 
 template <int Dim>
