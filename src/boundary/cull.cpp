@@ -33,24 +33,18 @@ void name(Slot* keep, Slot slot) {
     if (flag.load(std::memory_order_relaxed) == 0) flag.store(1, std::memory_order_relaxed);
 }
 
-template <class Body>
-void for_each(Offset n, const Body& body) {
-    Kokkos::parallel_for("boundary/cull/named",
-                         Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, n), body);
-    HostExec().fence();
-}
-
 void flag_named(ConnectivityMap& map, const View<Slot>& flags) {
     Slot* const keep = flags.data();
     std::fill_n(keep, map.layout().n_slots(), 0);
     if (map.options().rows) {
         const RowsView<> rows = map.rows();
         const Slot* const slots = rows.slots.data();
-        for_each(rows.size(), [=](const Offset k) { name(keep, slots[k]); });
+        detail::for_each_item("boundary/cull/named", rows.size(),
+                              [=](const Offset k) { name(keep, slots[k]); });
         return;
     }
     const auto pairs = map.pairs().view();
-    for_each(pairs.n_slots(), [=](const Offset i) {
+    detail::for_each_item("boundary/cull/named", pairs.n_slots(), [=](const Offset i) {
         for (Offset k = pairs.offsets(i); k < pairs.offsets(i + 1); ++k) name(keep, pairs.j(k));
         if (pairs.offsets(i) < pairs.offsets(i + 1)) name(keep, static_cast<Slot>(i));
     });

@@ -3,23 +3,11 @@
 
 #include <algorithm>
 
-#include <connectivity/base/parallel.hpp>
+#include "launch.hpp"
 
 namespace connectivity::detail {
 
 namespace {
-
-/// body(k) for k in [0, n), in parallel where that pays.
-template <class Body>
-void for_each_item(const char* label, Offset n, const Body& body) {
-    if (n <= few_items) {
-        for (Offset k = 0; k < n; ++k) body(k);
-        return;
-    }
-    Kokkos::parallel_for(label, Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, n),
-                         body);
-    HostExec().fence();
-}
 
 template <class T>
 void copy(const char* label, const ConstView<T>& from, const View<T>& to, Offset n) {

@@ -43,13 +43,20 @@ public:
     void select(int list, Offset n, const double* scratch, GhostLists& ghosts) const;
 
 private:
+    /// Where a node is: distances from the planes it enters and leaves by, the latter rounded down.
+    struct Place {
+        double distance, rounding, beyond, reach;
+    };
     /// What a chunk of nodes asks for.
     struct Found {
-        Offset outside = -1, far = -1;  ///< first node outside, first whose reach spans the gap
+        bool refused = false;
         double pull = -std::numeric_limits<double>::infinity();
     };
+    static bool is_inside(const Place& place) { return place.distance + place.rounding >= 0; }
+    bool is_refused(const Place& place) const { return !(is_inside(place) && place.reach < gap_); }
+    Place place_of(const GhostNodes& nodes, Offset node) const;
     Found read_chunk(const GhostNodes& nodes, Offset first, Offset last, double* scratch) const;
-    [[noreturn]] void refuse(const GhostNodes& nodes, int list, const Found& found) const;
+    [[noreturn]] void refuse(const GhostNodes& nodes, int list) const;
 
     const std::string& name_;
     const OneWay& way_;
