@@ -107,6 +107,7 @@ private:
         rows.commit(
             [this, n_lists](Offset first, Offset last, const Offset* offsets, Slot* values) {
                 for (Offset row = first / n_lists; row < last / n_lists; ++row) {
+                    if (offsets[row * n_lists] == offsets[(row + 1) * n_lists]) continue;
                     Slot* end = values + offsets[row * n_lists];
                     neighbours(layout_.slot_of_row(row),
                                [&](Offset j) { *end++ = static_cast<Slot>(j); });
