@@ -144,6 +144,9 @@ void Nodes<Exec, Dim>::upload(const SlotLayout& layout, const SearchRequest& req
     to.rows = request.rows;
     to.halves = request.half_rows;
     to.last_stored = layout.n_rows() > 0 ? layout.slot_of_row(layout.n_rows() - 1) : -1;
+    to.active = layout.active().size() > 0
+                    ? active_("search/device/active", layout.active().data(), layout.n_slots())
+                    : nullptr;
     to.list_offset =
         list_offset_("search/device/list_offset", layout.list_offset().data(), n_lists + 1);
     to.row_offset =
@@ -207,8 +210,8 @@ Problem<Dim> Nodes<Exec, Dim>::update(const SearchNodes<Dim>& nodes, const Group
 template <class Exec, int Dim>
 Offset Nodes<Exec, Dim>::bytes() const {
     return order_.bytes() + positions_.bytes() + reach2_.bytes() + H_.bytes() +
-           list_offset_.bytes() + row_offset_.bytes() + bytes_of(folded_) + bytes_of(leaf_x_) +
-           bytes_of(leaf_) + bytes_of(node_) + bytes_of(wanted_);
+           list_offset_.bytes() + row_offset_.bytes() + active_.bytes() + bytes_of(folded_) +
+           bytes_of(leaf_x_) + bytes_of(leaf_) + bytes_of(node_) + bytes_of(wanted_);
 }
 
 template class Nodes<Kokkos::DefaultExecutionSpace, 1>;

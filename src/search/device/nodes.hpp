@@ -50,6 +50,7 @@ private:
     OrderCopy<Exec> order_;
     Uploaded<double, Exec> positions_, reach2_, H_;
     Uploaded<Offset, Exec> list_offset_, row_offset_;
+    Uploaded<std::uint8_t, Exec> active_;
     Array<double, Exec> folded_, leaf_x_;
     Array<Box<Dim>, Exec> leaf_, node_;
     Array<int, Exec> wanted_;

@@ -12,10 +12,11 @@ namespace connectivity::detail::device {
 /// How slots are numbered; see SlotLayout.
 struct Layout {
     int n_lists;
-    const Offset* list_offset;  ///< [n_lists + 1]
-    const Offset* row_offset;   ///< [n_lists + 1]
-    Offset last_stored;         ///< slot, -1: none
-    bool rows, halves;          ///< what is asked for
+    const Offset* list_offset;   ///< [n_lists + 1]
+    const Offset* row_offset;    ///< [n_lists + 1]
+    const std::uint8_t* active;  ///< [n_slots], 0 or 1; nullptr: all are
+    Offset last_stored;          ///< slot, -1: none
+    bool rows, halves;           ///< what is asked for
 
     KOKKOS_INLINE_FUNCTION int list_of(Offset slot) const {
         int low = 0, high = n_lists;  // the last list that begins at or before the slot
@@ -25,7 +26,9 @@ struct Layout {
         }
         return low;
     }
+    /// Row of a slot, -1 if nothing is to be stored in it.
     KOKKOS_INLINE_FUNCTION Offset row_of(Offset slot) const {
+        if (active != nullptr && active[slot] == 0) return -1;
         const int list = list_of(slot);
         const Offset row = row_offset[list] + (slot - list_offset[list]);
         return row < row_offset[list + 1] ? row : -1;
