@@ -34,10 +34,20 @@ public:
     /// Numbers the node at a place. Throws std::bad_alloc.
     int add(Slot place) {
         const auto at = static_cast<std::uint32_t>(place);
-        const int number = page(static_cast<Slot>(at / page_size)) * page_size +
-                           static_cast<int>(at % page_size);
+        const int number =
+            page(static_cast<Slot>(at / page_size)) * page_size + static_cast<int>(at % page_size);
         met_[static_cast<std::size_t>(number)] = 1;
         return number;
+    }
+
+    /// The number of the node at a place, or -1 if no node of its page was met.
+    int find(Slot place) const {
+        const auto at = static_cast<std::uint32_t>(place);
+        const auto page = static_cast<Slot>(at / page_size);
+        for (std::uint32_t h = home(page); table_[h].page >= 0; h = (h + 1) & mask_)
+            if (table_[h].page == page)
+                return table_[h].index * page_size + static_cast<int>(at % page_size);
+        return -1;
     }
 
     /// Numbers of a row of labels; place_of may be null: places are labels. Throws std::bad_alloc.

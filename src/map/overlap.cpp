@@ -104,8 +104,8 @@ void OverlapBuild::commit(Csr& out) {
 }
 
 Offset OverlapBuild::bytes() const {
-    Offset sum =
-        static_cast<Offset>(chunks_.capacity() * sizeof(void*) + (counts_.size() + place_of_.size()) * sizeof(Slot));
+    Offset sum = static_cast<Offset>(chunks_.capacity() * sizeof(void*) +
+                                     (counts_.size() + place_of_.size()) * sizeof(Slot));
     for (const Worker& worker : workers_)
         sum += worker.block.bytes() + worker.arena.bytes() +
                static_cast<Offset>(worker.row.capacity() * sizeof(Slot));

@@ -40,8 +40,8 @@ private:
         std::vector<Slot> row;
     };
 
-    const detail::OverlapRows* count_chunk(const detail::OverlapSource& input, Worker& worker, Offset first,
-                                           Offset last);
+    const detail::OverlapRows* count_chunk(const detail::OverlapSource& input, Worker& worker,
+                                           Offset first, Offset last);
     detail::OverlapSource with_places(const OverlapInput& input);
     void write(const detail::OverlapRows& rows, Slot* row, Csr& out, bool past_caches) const;
 

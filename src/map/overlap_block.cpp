@@ -35,14 +35,14 @@ bool OverlapBlock::is_full() const {
     const Offset bit_bytes = witnesses * padded_words(numbers_.n()) * 8,
                  seen = static_cast<Offset>(seen_.size());
     if (alone_ || bit_bytes > most_bit_bytes || seen > most_seen) return true;
-    return members_.size() >= enough_members &&
-           (bit_bytes > good_bit_bytes || seen > good_seen);
+    return members_.size() >= enough_members && (bit_bytes > good_bit_bytes || seen > good_seen);
 }
 
 /// The number of a witness among the block's.
 int OverlapBlock::witness(const OverlapSource& input, Slot label) {
     const auto number = static_cast<std::size_t>(numbers_.add(input.place(label)));
-    if (number >= witness_of_.size()) witness_of_.resize(static_cast<std::size_t>(numbers_.n()), -1);
+    if (number >= witness_of_.size())
+        witness_of_.resize(static_cast<std::size_t>(numbers_.n()), -1);
     if (witness_of_[number] < 0) {
         witness_of_[number] = static_cast<int>(witnesses_.size());
         witnesses_.push_back(label);

@@ -87,8 +87,8 @@ private:
     std::vector<Slot> universe_;  // slots
     std::vector<int> list_end_;   // in the universe
     int n_universe_ = 0;
-    View<std::uint64_t> bits_;    // [witnesses * stride]
-    bool alone_ = false;          // one member that sees too many for bits
+    View<std::uint64_t> bits_;  // [witnesses * stride]
+    bool alone_ = false;        // one member that sees too many for bits
 };
 
 }  // namespace detail
