@@ -33,16 +33,29 @@ void name(Slot* keep, Slot slot) {
     if (flag.load(std::memory_order_relaxed) == 0) flag.store(1, std::memory_order_relaxed);
 }
 
-void flag_named(ConnectivityMap& map, const View<Slot>& flags) {
+/// Ghosts that rows name: they stand at the end of each list's part.
+void flag_in_rows(const ConnectivityMap& map, Slot* keep) {
+    const RowsView<> rows = map.rows();
+    std::vector<Slot> first_ghost;
+    for (int list = 0; list < rows.n_lists; ++list)
+        first_ghost.push_back(
+            static_cast<Slot>(map.layout().list_offset()[static_cast<std::size_t>(list)] +
+                              map.n_internal()[static_cast<std::size_t>(list)]));
+    const Slot* const first = first_ghost.data();
+    detail::for_each_item("boundary/cull/named", rows.n_rows(), [=](const Offset r) {
+        for (int list = 0; list < rows.n_lists; ++list) {
+            const auto row = rows(r, list);
+            for (const Slot* j = row.end(); j != row.begin() && j[-1] >= first[list]; --j)
+                name(keep, j[-1]);
+        }
+    });
+}
+
+/// Ghosts that internal nodes name; what it says of internal nodes means nothing.
+void flag_named(const ConnectivityMap& map, const View<Slot>& flags) {
     Slot* const keep = flags.data();
     std::fill_n(keep, map.layout().n_slots(), 0);
-    if (map.options().rows) {
-        const RowsView<> rows = map.rows();
-        const Slot* const slots = rows.slots.data();
-        detail::for_each_item("boundary/cull/named", rows.size(),
-                              [=](const Offset k) { name(keep, slots[k]); });
-        return;
-    }
+    if (map.options().rows) return flag_in_rows(map, keep);
     const auto pairs = map.pairs().view();
     detail::for_each_item("boundary/cull/named", pairs.n_slots(), [=](const Offset i) {
         for (Offset k = pairs.offsets(i); k < pairs.offsets(i + 1); ++k) name(keep, pairs.j(k));

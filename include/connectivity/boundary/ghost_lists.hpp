@@ -60,8 +60,8 @@ public:
     SlotLayout layout() const;
     Offset bytes() const;
 
-    /// keep [n_slots]: 1 for every node that internal rows name, else 0. Adds internal nodes,
-    /// controls by the rule, and ghosts that may not be culled.
+    /// keep [n_slots]: 1 for every ghost that internal rows name, 0 for the others. Adds internal
+    /// nodes, controls by the rule, and ghosts that may not be culled.
     void keep_needed(const View<Slot>& keep, CullRule rule) const;
 
     /// old2new [n_slots]: new node ids within the list for nodes with keep = 1; the others keep
