@@ -6,11 +6,12 @@
 
 #include <connectivity/base/runtime.hpp>
 
-#include <support/label_case.hpp>
 #include <support/random.hpp>
 #include <support/random_case.hpp>
 
 #include "map/intersection.hpp"
+
+#include "label_case.hpp"
 
 namespace connectivity::test {
 namespace {
