@@ -57,12 +57,13 @@ public:
         list.t = room(t_, Dim, n);
         list.label = room(label_, Dim + 1, n);
         if (form != Form::ellipsoids) return;
+        for (int d = 0; d < Dim; ++d) list.width[d] = room(width_[d], Dim + 2 + d, n);
         for (int k = 0; k < metric_size<Dim>; ++k)
-            list.metric[k] = room(metric_[k], Dim + 2 + k, n);
+            list.metric[k] = room(metric_[k], 2 * Dim + 2 + k, n);
     }
     std::size_t bytes() const {
         std::size_t sum = t_.bytes() + label_.bytes();
-        for (int d = 0; d < Dim; ++d) sum += x_[d].bytes();
+        for (int d = 0; d < Dim; ++d) sum += x_[d].bytes() + width_[d].bytes();
         for (const auto& entry : metric_) sum += entry.bytes();
         return sum;
     }
@@ -77,7 +78,7 @@ private:
         return buffer.data() + shift;
     }
 
-    Buffer<float> x_[Dim], t_, metric_[metric_size<Dim>];
+    Buffer<float> x_[Dim], t_, width_[Dim], metric_[metric_size<Dim>];
     Buffer<int> label_;
 };
 
@@ -125,8 +126,10 @@ void LabelSort::operator()(const CandidateList<Dim>& in, int label_bits, Form fo
     };
     for (int d = 0; d < Dim; ++d) move(in.x[d], out.x[d]);
     if (form != Form::uniform) move(in.t, out.t);
-    for (int s = 1; s < metric_size<Dim> && form == Form::ellipsoids; ++s)
-        move(in.metric[s], out.metric[s]);
+    if (form == Form::ellipsoids) {
+        for (int d = 0; d < Dim; ++d) move(in.width[d], out.width[d]);
+        for (int s = 1; s < metric_size<Dim>; ++s) move(in.metric[s], out.metric[s]);
+    }
     move(in.label, out.label);
     out.n = n;
     for (int k = n; k < n + list_slack; ++k) {

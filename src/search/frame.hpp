@@ -60,18 +60,22 @@ struct Frame {
         m.scale = scale;
         m.t_scale = t_scale();
         m.widen = widen();
+        m.position_error = static_cast<float>(position_error * scale);
         m.form = form;
         return m;
     }
 
-    /// A box of this frame's nodes in its coordinates, rounded outward.
-    FrameBox<Dim> inside(const ReachBox<Dim>& b, double slack) const {
+    /// A box of this frame's nodes in its coordinates, rounded outward, with the largest half
+    /// widths of their ellipsoids. If x sees y, coordinate by coordinate they are no farther apart
+    /// than the half width, and floats see that but for the position error and 3 units of it.
+    FrameBox<Dim> inside(const ReachBox<Dim>& b, double slack, const double (&width)[Dim]) const {
         FrameBox<Dim> f;
         for (int d = 0; d < Dim; ++d) {
             const double lo = (b.lo[d] - slack - centre[d]) * scale,
                          hi = (b.hi[d] + slack - centre[d]) * scale;
             f.lo[d] = static_cast<float>(lo - std::fabs(lo) * 0x1p-22);
             f.hi[d] = static_cast<float>(hi + std::fabs(hi) * 0x1p-22);
+            f.width[d] = static_cast<float>((width[d] * (1 + error) + position_error) * scale);
         }
         // Not below zero: a node that sees nobody must still find its own place in the list.
         f.t = static_cast<float>(std::max(b.reach2, 0.0) * t_scale());

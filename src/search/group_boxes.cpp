@@ -57,7 +57,7 @@ template <int Dim>
 void GroupBoxes<Dim>::gather_shapes(const SearchNodes<Dim>& nodes, const Slot* slot, Offset leaf) {
     constexpr int n_shape = n_symmetric(Dim);
     const double* const reach2 = data_.data() + leaf * leaf_stride + Dim * leaf_size;
-    float* shape = shapes_.data() + leaf * n_shape * leaf_size;
+    float* shape = shapes_.data() + leaf * shape_rows<Dim> * leaf_size;
     double h[Dim][Dim][leaf_size], stretch[leaf_size];
     for (int k = 0; k < leaf_size; ++k)
         stretch[k] = std::sqrt(std::fabs(reach2[k]) / nodes.extent2);
@@ -74,6 +74,46 @@ void GroupBoxes<Dim>::gather_shapes(const SearchNodes<Dim>& nodes, const Slot* s
                 for (int c = 0; c < Dim; ++c) sum += h[a][c][k] * h[c][b][k];
                 shape[k] = static_cast<float>(sum);
             }
+    gather_widths(h, leaf);
+}
+
+/// Entry (a, b) of the adjugate, for node k of 16.
+template <int Dim>
+double cofactor(const double (&h)[Dim][Dim][leaf_size], int a, int b, int k) {
+    if constexpr (Dim == 1) return 1;
+    if constexpr (Dim == 2) return (a == b ? 1 : -1) * h[1 - a][1 - b][k];
+    const auto at = [&](int i, int j) { return h[(a + i) % Dim][(b + j) % Dim][k]; };
+    return at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1);
+}
+
+/// Half widths per reach of |h r| <= 1: the norms of the columns of the inverse. No eigenvalue of h
+/// is below 1, so with T = |h|² the determinant exceeds sqrt(T/3), and all rounding, that of the
+/// double predicate too, is less than 2^-48 T. A ball needs no more than 1.
+template <int Dim>
+void GroupBoxes<Dim>::gather_widths(const double (&h)[Dim][Dim][leaf_size], Offset leaf) {
+    const double* const reach2 = data_.data() + leaf * leaf_stride + Dim * leaf_size;
+    float* const rows = shapes_.data() + (leaf * shape_rows<Dim> + n_symmetric(Dim)) * leaf_size;
+    double norm2[leaf_size], det[leaf_size];
+    for (int k = 0; k < leaf_size; ++k) {
+        norm2[k] = det[k] = 0;
+        for (int a = 0; a < Dim; ++a) det[k] += h[0][a][k] * cofactor<Dim>(h, 0, a, k);
+        for (int a = 0; a < Dim; ++a)
+            for (int b = 0; b < Dim; ++b) norm2[k] += h[a][b][k] * h[a][b][k];
+    }
+    for (int d = 0; d < Dim; ++d) {
+        double width[leaf_size], largest = 0;
+        for (int k = 0; k < leaf_size; ++k) {
+            double sum = 0;
+            for (int a = 0; a < Dim; ++a)
+                sum += cofactor<Dim>(h, a, d, k) * cofactor<Dim>(h, a, d, k);
+            const double w = std::sqrt(sum) / det[k] + 0x1p-48 * norm2[k];
+            width[k] = (w < 1 ? w : 1) * (1 + 0x1p-22);  // NaN is a ball, too
+            rows[d * leaf_size + k] = static_cast<float>(width[k]);
+        }
+        for (int k = 0; k < leaf_size; ++k)
+            if (reach2[k] > 0) largest = std::max(largest, width[k] * std::sqrt(reach2[k]));
+        widths_(leaf * Dim + d) = largest;
+    }
 }
 
 template <int Dim>
@@ -136,11 +176,13 @@ void GroupBoxes<Dim>::gather(const SearchNodes<Dim>& nodes, const GroupOrder& or
     ensure_capacity(data_, "search/groups/nodes", order.n_leaves() * leaf_stride);
     ensure_capacity(leaves_, "search/groups/leaves", order.n_leaves());
     ensure_capacity(tree_nodes_, "search/groups/tree", order.n_tree_nodes);
-    if (nodes.H.size() > 0)
+    shapes_ = nodes.H.size() > 0 ? shapes_ : View<float>();
+    widths_ = nodes.H.size() > 0 ? widths_ : View<double>();
+    if (nodes.H.size() > 0) {
         ensure_capacity(shapes_, "search/groups/shapes",
-                        order.n_leaves() * leaf_size * n_symmetric(Dim));
-    else
-        shapes_ = {};
+                        order.n_leaves() * leaf_size * shape_rows<Dim>);
+        ensure_capacity(widths_, "search/groups/widths", order.n_leaves() * Dim);
+    }
     bounds_stride_ = order.n_leaves() + leaf_box_slack;
     ensure_capacity(bounds_, "search/groups/bounds", bounds_stride_ * (2 * Dim + 1));
     find_common_reach(nodes);

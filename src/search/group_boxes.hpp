@@ -5,9 +5,11 @@
 /// Invariants: boxes hold the gathered positions exactly, so that the computed gap of two boxes
 /// never exceeds the computed distance of two of their nodes (rounding is monotone); on periodic
 /// axes positions are folded into [0, L), which moves them by at most `fold_error`. Cost: one read
-/// of positions and reaches in random order, 8 (Dim + 1) bytes a node written; every build.
+/// of positions and reaches in random order, 8 (Dim + 1) bytes a node written, 36 more for tensors
+/// in 3D; every build.
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "group_order.hpp"
@@ -77,6 +79,16 @@ public:
                 leaf_stride};
     }
 
+    /// Largest half width of the supports of some leaves along each axis; `reach2` is their largest
+    /// reach.
+    void widths(Offset first, Offset last, double reach2, double (&width)[Dim]) const {
+        for (int d = 0; d < Dim; ++d) {
+            width[d] = shapes_.size() > 0 ? 0 : std::sqrt(std::max(reach2, 0.0));
+            for (Offset l = first; l < last && shapes_.size() > 0; ++l)
+                width[d] = std::max(width[d], widths_(l * Dim + d));
+        }
+    }
+
     double fold_error() const { return fold_error_; }
     const ReachBox<Dim>& all() const { return all_; }
     bool uniform() const { return all_.reach2 == all_.least && all_.reach2 > 0 && !all_.has_blind; }
@@ -88,6 +100,7 @@ public:
     Offset bytes() const {
         return static_cast<Offset>((data_.size() + bounds_.size()) * sizeof(double) +
                                    shapes_.size() * sizeof(float) +
+                                   widths_.size() * sizeof(double) +
                                    (leaves_.size() + tree_nodes_.size()) * sizeof(ReachBox<Dim>));
     }
 
@@ -96,11 +109,13 @@ private:
     void gather_tree(const SearchNodes<Dim>& nodes, const GroupOrder& order, const ClassTree& tree);
     void find_common_reach(const SearchNodes<Dim>& nodes);
     void gather_shapes(const SearchNodes<Dim>& nodes, const Slot* slot, Offset leaf);
+    void gather_widths(const double (&h)[Dim][Dim][leaf_size], Offset leaf);
     void store_bounds(Offset leaf, const ReachBox<Dim>& box);
     double spread_of(const ReachBox<Dim>& block) const;
 
     View<double> data_;           // by leaf: x[Dim][16], reach²[16] (-infinity: blind)
-    View<float> shapes_;          // by leaf: upper triangle [n_symmetric(Dim)][16]; see metric.hpp
+    View<float> shapes_;          // by leaf: [shape_rows][16]; see metric.hpp
+    View<double> widths_;         // by leaf: largest half widths [Dim] of ellipsoids
     View<ReachBox<Dim>> leaves_;  // [n_leaves]
     View<double> bounds_;         // the same, as vector kernels read them
     Offset bounds_stride_ = 0;

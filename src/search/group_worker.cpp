@@ -41,6 +41,15 @@ ReachBox<Dim> GroupWorker<Dim>::box_of(const Range& range) const {
     return box;
 }
 
+/// The box of a range of the frame, in the frame's coordinates.
+template <int Dim>
+FrameBox<Dim> GroupWorker<Dim>::inside(const Frame<Dim>& frame, const Range& range) const {
+    const ReachBox<Dim> box = box_of(range);
+    double width[Dim] = {};
+    if (form_ == Form::ellipsoids) sweep_->boxes.widths(range.first, range.last, box.reach2, width);
+    return frame.inside(box, sweep_->boxes.fold_error(), width);
+}
+
 /// Nothing is searched for ranges whose rows nobody wants, such as ghosts behind all stored nodes.
 template <int Dim>
 bool GroupWorker<Dim>::is_wanted(const Range& range) const {
@@ -63,7 +72,7 @@ void GroupWorker<Dim>::process(const Range& range) {
         return;
     }
     const Frame<Dim> frame(box_of(range), sweep_->boxes);
-    const bool found = frame.is_good() && find_candidates(frame);
+    const bool found = frame.is_good() && find_candidates(frame, range);
     if (found) return test_groups(range, frame);
     if (range.only >= 0) return process_exactly(range);
     split(range);
@@ -115,7 +124,8 @@ void GroupWorker<Dim>::find_leaves(const ReachBox<Dim>& box) {
 
 /// Appends the candidates of one periodic image. False if there might be more than can be counted.
 template <int Dim>
-bool GroupWorker<Dim>::collect_image(const Frame<Dim>& frame, const double (&image)[Dim]) {
+bool GroupWorker<Dim>::collect_image(const Frame<Dim>& frame, const FrameBox<Dim>& box,
+                                     const double (&image)[Dim]) {
     constexpr int most = std::numeric_limits<int>::max() / leaf_size - 1;
     ReachBox<Dim> moved = frame.box;
     for (int d = 0; d < Dim; ++d) moved.lo[d] -= image[d], moved.hi[d] -= image[d];
@@ -124,24 +134,24 @@ bool GroupWorker<Dim>::collect_image(const Frame<Dim>& frame, const double (&ima
     if (found_.list.n / leaf_size + n_leaves_ > most) return false;
     found_.reserve(found_.list.n + n_leaves_ * leaf_size, form_);
     sweep_->kernels.collect(sweep_->boxes.leaf_array(sweep_->order), leaves_.data(), n_leaves_,
-                            frame.map(image, form_),
-                            frame.inside(frame.box, sweep_->boxes.fold_error()), found_.list);
+                            frame.map(image, form_), box, found_.list);
     return true;
 }
 
 /// Fills block_ with sorted candidates. False if a node came with two images, its distance then not
 /// being one number, or if there are too many.
 template <int Dim>
-bool GroupWorker<Dim>::find_candidates(const Frame<Dim>& frame) {
+bool GroupWorker<Dim>::find_candidates(const Frame<Dim>& frame, const Range& range) {
     const auto& periods = sweep_->nodes.periods;
     int lowest[Dim], image[Dim], images = 0;
     for (int d = 0; d < Dim; ++d) image[d] = lowest[d] = periods.length[d] > 0 ? -1 : 0;
+    const FrameBox<Dim> box = inside(frame, range);
     found_.list.n = 0;
     for (bool more = true; more;) {
         double shift[Dim];
         for (int d = 0; d < Dim; ++d) shift[d] = image[d] * periods.length[d];
         const int before = found_.list.n;
-        if (!collect_image(frame, shift)) return false;
+        if (!collect_image(frame, box, shift)) return false;
         images += found_.list.n > before;
         more = false;
         for (int d = 0; d < Dim && !more; ++d) {
@@ -160,13 +170,12 @@ bool GroupWorker<Dim>::find_candidates(const Frame<Dim>& frame) {
 template <int Dim>
 void GroupWorker<Dim>::test_groups(const Range& range, const Frame<Dim>& frame) {
     constexpr Offset leaves_per_group = 4;
-    const double slack = sweep_->boxes.fold_error();
     if (range.only >= 0) return test_leaf(range.first, range.only, frame);
     for (Offset first = range.first; first < range.last; first += leaves_per_group) {
         const Range group{first, std::min(first + leaves_per_group, range.last), -1};
         group_.reserve(block_.list.n, form_);
-        sweep_->kernels.filter(block_.list, frame.inside(box_of(group), slack), frame.widen(),
-                               form_, group_.list);
+        sweep_->kernels.filter(block_.list, inside(frame, group), frame.widen(), form_,
+                               group_.list);
         for (Offset leaf = group.first; leaf < group.last; ++leaf) test_leaf(leaf, -1, frame);
     }
 }
@@ -178,9 +187,8 @@ void GroupWorker<Dim>::test_leaf(Offset leaf, int only, const Frame<Dim>& frame)
     const double* const data = boxes.leaf_data(leaf);
     const CandidateList<Dim>& wide = only < 0 ? group_.list : block_.list;
     leaf_.reserve(wide.n, form_);
-    const ReachBox<Dim> box = only < 0 ? boxes.leaf(leaf) : frame.box;
-    sweep_->kernels.filter(wide, frame.inside(box, boxes.fold_error()), frame.widen(), form_,
-                           leaf_.list);
+    sweep_->kernels.last_filter(wide, inside(frame, {leaf, leaf + 1, only}), frame.widen(), form_,
+                                leaf_.list);
 
     LeafTest<Dim> test;
     RowSink::Wanted wanted[leaf_size];

@@ -51,8 +51,9 @@ private:
 
     void process(const Range& range);
     void split(const Range& range);
-    bool find_candidates(const Frame<Dim>& frame);
-    bool collect_image(const Frame<Dim>& frame, const double (&image)[Dim]);
+    bool find_candidates(const Frame<Dim>& frame, const Range& range);
+    bool collect_image(const Frame<Dim>& frame, const FrameBox<Dim>& box,
+                       const double (&image)[Dim]);
     void find_leaves(const ReachBox<Dim>& box);
     void test_groups(const Range& range, const Frame<Dim>& frame);
     void test_leaf(Offset leaf, int only, const Frame<Dim>& frame);
@@ -62,6 +63,7 @@ private:
     void process_exactly(const Range& range);
 
     ReachBox<Dim> box_of(const Range& range) const;
+    FrameBox<Dim> inside(const Frame<Dim>& frame, const Range& range) const;
     bool is_wanted(const Range& range) const;
 
     const GroupSweep<Dim>* sweep_ = nullptr;

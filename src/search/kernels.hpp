@@ -35,18 +35,21 @@ constexpr int metric_size = 1 + Dim*(Dim + 1) / 2;
 template <int Dim>
 struct CandidateList {
     float* x[Dim];
-    float* t;  ///< own thresholds; untouched where all nodes have one reach
+    float* t;           ///< own thresholds; untouched where all nodes have one reach
+    float* width[Dim];  ///< half widths of the boxes of ellipsoids; untouched for balls
     /// For ellipsoids; entry 0 is not set, and the others are of the shape, until `metrics` ran.
     float* metric[metric_size<Dim>];
     int* label;  ///< slots
     int n;
 };
 
-/// Box in a frame, rounded outward, with the largest threshold of the nodes in it.
+/// Box in a frame, rounded outward, with the largest threshold of the nodes in it and, for
+/// ellipsoids, the largest half widths of theirs.
 template <int Dim>
 struct FrameBox {
     float lo[Dim], hi[Dim];
     float t;
+    float width[Dim];
 };
 
 /// How the nodes of leaves come into a frame.
@@ -56,6 +59,7 @@ struct FrameMap {
     double scale;        ///< frame units per length
     double t_scale;      ///< threshold per squared length: scale² * (1 - error)
     float widen;         ///< 1 + what box tests need beyond a threshold
+    float position_error;
     Form form;
 };
 
@@ -65,8 +69,13 @@ struct MetricMap {
     float position_error;  ///< of a difference of coordinates
 };
 
-/// Nodes in search order, by leaves of 16: for each leaf x[Dim][16], reach²[16], and the upper
-/// triangle of the shape [n_symmetric(Dim)][16], which is absent if all are balls.
+/// Rows of 16 that a leaf's ellipsoids take: the upper triangle of the shape, half widths per
+/// reach.
+template <int Dim>
+constexpr int shape_rows = metric_size<Dim> - 1 + Dim;
+
+/// Nodes in search order, by leaves of 16: for each leaf x[Dim][16], reach²[16], and
+/// shapes[shape_rows<Dim>][16], absent if all are balls.
 struct LeafArray {
     const double* nodes;
     const float* shapes;
@@ -129,6 +138,9 @@ struct Kernels {
     /// Keeps the order: candidates of `in` within reach of the box, packed to the front of `out`.
     void (*filter)(const CandidateList<Dim>& in, const FrameBox<Dim>&, float widen, Form form,
                    CandidateList<Dim>& out);
+    /// The same for a list that is tested next: what only filters read is left out.
+    void (*last_filter)(const CandidateList<Dim>& in, const FrameBox<Dim>&, float widen, Form form,
+                        CandidateList<Dim>& out);
     /// Makes metrics of the shapes in a list.
     void (*metrics)(CandidateList<Dim>& list, const MetricMap&);
     /// bits[node * n_words + word]; returns the number of doubts written.

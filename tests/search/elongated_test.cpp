@@ -16,7 +16,7 @@ constexpr double K = 2;
 /// Nodes of axis ratio up to `ratio`, each with others around it that are on its rim but for a
 /// relative difference of up to `blur`.
 Case rims(Random& random, int dim, double ratio, double blur) {
-    constexpr int n_centres = 40, n_around = 12;
+    constexpr int n_centres = 30, n_around = 12;
     const double unit = random.pick({1.0, 1.0, 0x1p-250, 0x1p250}),
                  offset = random.pick({0.0, 0.3, 100.0});
     std::vector<double> x, H;
@@ -32,8 +32,12 @@ Case rims(Random& random, int dim, double ratio, double blur) {
         for (double& c : centre) c = offset + random.uniform(0, 3);
         add(centre, e);
         for (int j = 0; j < n_around; ++j) {
-            double r[3];
-            e.surface(random, dim, r);
+            double r[3], u[3] = {0, 0, 0};
+            u[random.below(dim)] = random.pick({-1.0, 1.0});
+            if (random.chance(0.5))
+                e.surface(random, dim, r);
+            else
+                e.farthest(dim, u, r);  // where its box touches it
             const double stretch =
                 1 + random.pick({-1.0, 0.0, 1.0}) * random.log_uniform(1e-17, blur);
             for (int d = 0; d < dim; ++d) at[d] = centre[d] + stretch * r[d];
