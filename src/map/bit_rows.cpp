@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bit_rows.hpp"
 
+#include <string_view>
+
+#include "search/kernels.hpp"
+
 namespace connectivity::detail {
 
-namespace {
-
-void unite(const std::uint64_t* rows, long stride, const int* which, int n, std::uint64_t* out) {
-    for (long w = 0; w < stride; w += row_words) {
-        std::uint64_t sum[row_words] = {};
-        for (int k = 0; k < n; ++k) {
-            const std::uint64_t* const row = rows + which[k] * stride + w;
-            for (int j = 0; j < row_words; ++j) sum[j] |= row[j];
-        }
-        for (int j = 0; j < row_words; ++j) out[w + j] = sum[j];
-    }
-}
-
-}  // namespace
-
+/// The search has looked at the processor already.
 const BitRowKernels& bit_row_kernels() {
-    static constexpr BitRowKernels portable{unite};
-    return portable;
+#if defined(CONNECTIVITY_X86_KERNELS)
+    const std::string_view name = kernels<3>().name;
+    if (name == "avx512") return avx512_bit_row_kernels;
+    if (name == "avx2") return avx2_bit_row_kernels;
+#endif
+    return portable_bit_row_kernels;
 }
 
 }  // namespace connectivity::detail

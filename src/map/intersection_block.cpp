@@ -90,30 +90,25 @@ void IntersectionBlock<Dim>::read_partners(const Source& input, Offset first, Of
 template <int Dim>
 void IntersectionBlock<Dim>::take_universe(const Source& input, Slot a) {
     const auto row = input.rows[a], half = input.half_rows[a];
-    universe_.clear(), own_.clear();
-    auto b = half.begin();
-    bool has_a = false;
+    universe_.clear(), own_.clear(), ends_.clear();
+    own_end_ = -1;
     const auto add = [&](Slot label, bool neighbour) {
-        universe_.push_back(label);
         const int number = neighbour ? numbers_.find(input.place(label)) : -1;
+        universe_.push_back(label);
         own_.push_back(number < 0 ? 0 : index_[static_cast<std::size_t>(number)]);
+        return static_cast<int>(universe_.size()) - 1;
     };
+    auto b = half.begin();
     const auto add_others = [&](Slot before) {
-        if (!has_a && a < before) add(a, false), has_a = true;
-        for (; b != half.end() && *b < before; ++b) add(*b, false);
+        if (own_end_ < 0 && a < before) own_end_ = add(a, false);
+        for (; b != half.end() && *b < before; ++b) ends_.push_back(add(*b, false));
     };
     for (const Slot k : row) {
         add_others(k);
-        add(k, true);
-        if (b != half.end() && *b == k) ++b;
+        const int place = add(k, true);
+        if (b != half.end() && *b == k) ends_.push_back(place), ++b;
     }
     add_others(no_label);
-}
-
-template <int Dim>
-int IntersectionBlock<Dim>::place_in_universe(Slot label) const {
-    return static_cast<int>(std::lower_bound(universe_.begin(), universe_.end(), label) -
-                            universe_.begin());
 }
 
 /// Bits of the nodes that are in the row of b too, which is long.
@@ -125,38 +120,43 @@ void IntersectionBlock<Dim>::bisect(const Source& input, Slot b, std::uint64_t* 
             bits[k / 64] |= std::uint64_t{1} << k % 64;
 }
 
-/// Bits of the common neighbours of a and each of its partners.
+/// The union of the table's entries for a partner's row.
 template <int Dim>
-void IntersectionBlock<Dim>::mark_common(const Source& input, Slot a, std::uint64_t* bits,
-                                         int n_words) {
-    const auto half = input.half_rows[a];
-    for (int w = 0; w < n_words; w += 2) {
+void IntersectionBlock<Dim>::unite(int partner, std::uint64_t (&sum)[2]) const {
+    const auto p = static_cast<std::size_t>(partner);
+    const int *k = row_.data() + (p == 0 ? 0 : row_end_[p - 1]), *const end =
+                                                                     row_.data() + row_end_[p];
+    const Entry* const table = table_.data();
+    std::uint64_t low = 0, high = 0;
+    for (; k < end; ++k) low |= table[*k].bits[0], high |= table[*k].bits[1];
+    sum[0] = low, sum[1] = high;
+}
+
+/// Bits of the common neighbours of a member and each of its partners.
+template <int Dim>
+void IntersectionBlock<Dim>::mark_common(const Source& input, std::span<const Slot> half,
+                                         std::uint64_t* bits) {
+    const int words = n_words(static_cast<int>(universe_.size()));
+    for (int w = 0; w < words; w += 2) {
         const std::size_t first = static_cast<std::size_t>(w) * 64,
                           last = std::min(first + 128, universe_.size());
+        const auto entry = [&](std::size_t k) -> Entry& {
+            return table_[static_cast<std::size_t>(own_[k])];
+        };
         for (std::size_t k = first; k < last; ++k)
-            table_[static_cast<std::size_t>(own_[k])].bits[(k - first) / 64] |= std::uint64_t{1}
-                                                                                << k % 64;
-        table_[0] = {};
+            entry(k).bits[(k - first) / 64] |= std::uint64_t{1} << k % 64;
         for (std::size_t j = 0; j < half.size(); ++j) {
-            const int number = numbers_.find(input.place(half[j]));
-            const int index = number < 0 ? 0 : index_[static_cast<std::size_t>(number)];
-            const int p = index == 0 ? -1 : partner_[static_cast<std::size_t>(index)];
-            std::uint64_t* const out = bits + static_cast<Offset>(j) * n_words + w;
-            if (p < 0) {
-                if (w == 0) bisect(input, half[j], out);
-                continue;
+            const auto index = static_cast<std::size_t>(own_[static_cast<std::size_t>(ends_[j])]);
+            std::uint64_t* const out = bits + static_cast<Offset>(j) * words;
+            if (const int partner = partner_[index]; partner >= 0) {
+                std::uint64_t sum[2];
+                unite(partner, sum);
+                for (int k = w; k < std::min(w + 2, words); ++k) out[k] = sum[k - w];
+            } else if (w == 0) {
+                bisect(input, half[j], out);
             }
-            const Offset begin = p == 0 ? 0 : row_end_[static_cast<std::size_t>(p) - 1];
-            std::uint64_t sum[2] = {0, 0};
-            for (Offset k = begin; k < row_end_[static_cast<std::size_t>(p)]; ++k) {
-                const Entry& entry =
-                    table_[static_cast<std::size_t>(row_[static_cast<std::size_t>(k)])];
-                sum[0] |= entry.bits[0], sum[1] |= entry.bits[1];
-            }
-            out[0] = sum[0];
-            if (w + 1 < n_words) out[1] = sum[1];
         }
-        for (std::size_t k = first; k < last; ++k) table_[static_cast<std::size_t>(own_[k])] = {};
+        for (std::size_t k = first; k < last; ++k) entry(k) = {};
     }
 }
 
@@ -179,18 +179,16 @@ PairRows* IntersectionBlock<Dim>::store_bits(const Source& input, Slot a, WordAr
     auto* bits = memory + head + Offset{rows.n_words} * 32;
     rows.slots = slots, rows.bits = bits;
     std::memset(bits, 0, static_cast<std::size_t>(rows.n_pairs * rows.n_words) * 8);
-    mark_common(input, a, bits, rows.n_words);
+    mark_common(input, half, bits);
     if (input.in_segment) segments_.start(input.positions, input.periods, a, universe_);
-    const int own = place_in_universe(a);
-    int other = own;
     const auto count = kernels<3>().count;
-    for (const Slot b : half) {
-        while (universe_[static_cast<std::size_t>(other)] != b) ++other;
+    const auto keep_between = bit_row_kernels().keep_between;
+    for (const int other : ends_) {
         if (input.in_segment) {
             segments_.aim(static_cast<std::size_t>(other));
-            segments_.keep(bits, rows.n_words);
+            keep_between(segments_.slab(), bits, rows.n_words);
         }
-        for (const int end : {own, other}) bits[end / 64] |= std::uint64_t{1} << end % 64;
+        for (const int end : {own_end_, other}) bits[end / 64] |= std::uint64_t{1} << end % 64;
         *counts = count(bits, n);
         rows.n_entries += *counts++;
         bits += rows.n_words;
@@ -275,7 +273,8 @@ Offset IntersectionBlock<Dim>::bytes() const {
         return (static_cast<Offset>(v.capacity() * sizeof(v[0])) + ...);
     };
     return numbers_.bytes() + segments_.bytes() +
-           held(index_, partner_, row_, row_end_, scratch_, table_, universe_, own_, long_rows_);
+           held(index_, partner_, row_, row_end_, scratch_, table_, universe_, own_, ends_,
+                long_rows_);
 }
 
 #define CONNECTIVITY_INSTANTIATE(Dim)                                                            \

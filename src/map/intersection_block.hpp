@@ -75,9 +75,9 @@ private:
     void take_universe(const Source& input, Slot a);
     PairRows* store_bits(const Source& input, Slot a, WordArena& arena, Slot* counts);
     PairRows* store_rows(const Source& input, Slot a, WordArena& arena, Slot* counts);
-    void mark_common(const Source& input, Slot a, std::uint64_t* bits, int n_words);
+    void mark_common(const Source& input, std::span<const Slot> half, std::uint64_t* bits);
+    void unite(int partner, std::uint64_t (&sum)[2]) const;
     void bisect(const Source& input, Slot b, std::uint64_t* bits);
-    int place_in_universe(Slot label) const;
 
     LocalNumbers numbers_;
     std::vector<int> index_;    // by number: without gaps, from 1; 0: not met
@@ -88,6 +88,8 @@ private:
     std::vector<Entry> table_;     // by index
     std::vector<Slot> universe_;   // row of the member, with itself and its partners
     std::vector<int> own_;         // index of each, 0 if it is no neighbour
+    std::vector<int> ends_;        // place of each partner there
+    int own_end_ = 0;              // of the member itself
     std::vector<Slot> long_rows_;  // slots
     SegmentsFrom<Dim> segments_;
     int n_index_ = 0;

@@ -44,10 +44,9 @@ public:
     int find(Slot place) const {
         const auto at = static_cast<std::uint32_t>(place);
         const auto page = static_cast<Slot>(at / page_size);
-        for (std::uint32_t h = home(page); table_[h].page >= 0; h = (h + 1) & mask_)
-            if (table_[h].page == page)
-                return table_[h].index * page_size + static_cast<int>(at % page_size);
-        return -1;
+        const Entry entry = table_[home(page)];
+        const int index = entry.page == page ? entry.index : find_known(page);
+        return index < 0 ? -1 : index * page_size + static_cast<int>(at % page_size);
     }
 
     /// Numbers of a row of labels; place_of may be null: places are labels. Throws std::bad_alloc.
@@ -93,6 +92,12 @@ private:
         for (; table_[at].page != page; at = (at + 1) & mask_)
             if (table_[at].page < 0) return insert(page, at);
         return table_[at].index;
+    }
+
+    [[gnu::noinline]] int find_known(Slot page) const {
+        for (std::uint32_t at = home(page); table_[at].page >= 0; at = (at + 1) & mask_)
+            if (table_[at].page == page) return table_[at].index;
+        return -1;
     }
 
     int insert(Slot page, std::uint32_t at) {

@@ -8,6 +8,7 @@
 /// scaled by powers of two first, so that the answer does not depend on the unit of length and no
 /// product overflows.
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -16,6 +17,8 @@
 
 #include <connectivity/base/box.hpp>
 #include <connectivity/base/types.hpp>
+
+#include "bit_rows.hpp"
 
 namespace connectivity::detail {
 
@@ -34,15 +37,15 @@ public:
     void start(const double* positions, const Periods<Dim>& periods, Slot a,
                std::span<const Slot> labels) {
         n_ = labels.size();
-        if (d_[0].size() < n_)
-            for (auto& d : d_) d.resize(n_);
+        for (auto& d : d_)
+            if (d.size() < n_ + 64) d.resize(n_ + n_ / 2 + 64);  // whole words of bits
         double largest = 0;
         for (std::size_t k = 0; k < n_; ++k)
             for (int d = 0; d < Dim; ++d) {
                 const double r =
                     positions[Offset{labels[k]} * Dim + d] - positions[Offset{a} * Dim + d];
                 d_[d][k] = periods.any ? periods.wrap(r, d) : r;
-                largest = std::fmax(largest, std::fabs(d_[d][k]));
+                largest = std::max(largest, std::fabs(d_[d][k]));
             }
         const double scale = scale_to_one(largest);
         for (auto& d : d_)
@@ -52,7 +55,7 @@ public:
     /// Now towards the node labels[k].
     void aim(std::size_t k) {
         double largest = 0;
-        for (const auto& d : d_) largest = std::fmax(largest, std::fabs(d[k]));
+        for (const auto& d : d_) largest = std::max(largest, std::fabs(d[k]));
         const double scale = scale_to_one(largest);
         for (int d = 0; d < Dim; ++d) u_[d] = d_[d][k] * scale;
         end_ = along(k);
@@ -63,13 +66,11 @@ public:
         return 0 <= s && s <= end_;
     }
 
-    /// Clears the bits of nodes that are not between.
-    void keep(std::uint64_t* bits, int n_words) const {
-        for (int w = 0; w < n_words; ++w)
-            for (std::uint64_t left = bits[w]; left != 0; left &= left - 1) {
-                const auto k = static_cast<std::size_t>(std::countr_zero(left));
-                bits[w] &= ~(std::uint64_t{!holds(static_cast<std::size_t>(w) * 64 + k)} << k);
-            }
+    /// What `holds` asks of all nodes, for the kernels; numbers beyond the last node are any.
+    Slab slab() const {
+        Slab slab{{}, {}, end_, Dim};
+        for (int d = 0; d < Dim; ++d) slab.x[d] = d_[d].data(), slab.u[d] = u_[d];
+        return slab;
     }
 
     Offset bytes() const { return static_cast<Offset>(Dim * d_[0].capacity() * sizeof(double)); }
