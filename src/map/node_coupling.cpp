@@ -18,19 +18,19 @@ using Slots = Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>;
 bool is_allowed(double value) { return value >= 0 && value <= 1; }
 
 /// values[k] of all pairs; returns the first pair whose value is not allowed, or their number.
-Offset evaluate(const ConstView<Offset>& offsets, const ConstView<Slot>& j, const NodeCoupling& f,
-                double* values) {
-    const Offset n_slots = static_cast<Offset>(offsets.size()) - 1;
-    Offset first_bad = static_cast<Offset>(j.size());
+Offset evaluate(const HalfRows& pairs, const NodeCoupling& f, double* values) {
+    const Offset n_rows = static_cast<Offset>(pairs.offsets.size()) - 1;
+    const auto n_pairs = static_cast<Offset>(pairs.j.size());
+    Offset first_bad = n_pairs;
     detail::FirstException failure;
     auto* const failed = &failure;
     Kokkos::parallel_reduce(
-        label, Slots(0, n_slots),
-        [=](const Offset i, Offset& bad) {
-            const Offset first = offsets(i), last = offsets(i + 1);
+        label, Slots(0, n_rows),
+        [=](const Offset row, Offset& bad) {
+            const Offset first = pairs.offsets(row), last = pairs.offsets(row + 1);
             if (first == last || failed->any()) return;
             try {
-                f(static_cast<Slot>(i), {j.data() + first, j.data() + last}, values + first);
+                f(pairs.node(row), {pairs.j.data() + first, pairs.j.data() + last}, values + first);
             } catch (...) {
                 failed->keep();
                 return;
@@ -40,15 +40,15 @@ Offset evaluate(const ConstView<Offset>& offsets, const ConstView<Slot>& j, cons
         },
         Kokkos::Min<Offset>(first_bad));
     failure.rethrow();
-    return std::min(first_bad, static_cast<Offset>(j.size()));
+    return std::min(first_bad, n_pairs);
 }
 
-[[noreturn]] void throw_out_of_range(const ConstView<Offset>& offsets, const ConstView<Slot>& j,
-                                     Offset k, double value) {
-    const Offset* const begin = offsets.data();
-    const Offset i = std::upper_bound(begin, begin + offsets.size(), k) - begin - 1;
+[[noreturn]] void throw_out_of_range(const HalfRows& pairs, Offset k, double value) {
+    const Offset* const begin = pairs.offsets.data();
+    const Offset row = std::upper_bound(begin, begin + pairs.offsets.size(), k) - begin - 1;
     throw Error(Status::argument, "set_coupling: pair " + std::to_string(k) + " (slots " +
-                                      std::to_string(i) + " and " + std::to_string(j(k)) +
+                                      std::to_string(pairs.node(row)) + " and " +
+                                      std::to_string(pairs.j(k)) +
                                       "): coupling = " + number(value) + ", must be in [0, 1]");
 }
 
@@ -63,26 +63,24 @@ Offset PairCoupling::bytes() const {
     return static_cast<Offset>((values_.size() + spare_.size() + pending_.size()) * sizeof(double));
 }
 
-void PairCoupling::set(const ConstView<Offset>& offsets, const ConstView<Slot>& j,
-                       const NodeCoupling& f) {
-    const auto n = static_cast<Offset>(j.size());
+void PairCoupling::set(const HalfRows& pairs, const NodeCoupling& f) {
+    const auto n = static_cast<Offset>(pairs.j.size());
     ensure_capacity(spare_, label, n);
     shim::outside_parallel_region([&] {
-        const Offset bad = evaluate(offsets, j, f, spare_.data());
-        if (bad < n) throw_out_of_range(offsets, j, bad, spare_(bad));
+        const Offset bad = evaluate(pairs, f, spare_.data());
+        if (bad < n) throw_out_of_range(pairs, bad, spare_(bad));
     });
     std::swap(values_, spare_);
     n_ = n;
     exists_ = true;
 }
 
-void PairCoupling::set(const ConstView<Offset>& offsets, const ConstView<Slot>& j, Offset k,
-                       double value) {
-    const auto n = static_cast<Offset>(j.size());
+void PairCoupling::set(const HalfRows& pairs, Offset k, double value) {
+    const auto n = static_cast<Offset>(pairs.j.size());
     if (k < 0 || k >= n)
         throw Error(Status::argument, "set_coupling: pair " + std::to_string(k) +
                                           ", must be in [0, " + std::to_string(n) + ")");
-    if (!is_allowed(value)) throw_out_of_range(offsets, j, k, value);
+    if (!is_allowed(value)) throw_out_of_range(pairs, k, value);
     if (!exists_) {
         ensure_capacity(values_, label, n);
         detail::fill_pairs(values_.data(), n, 1.0);

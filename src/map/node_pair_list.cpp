@@ -31,12 +31,12 @@ NodePairList::View<> NodePairList::view() const {
 
 void NodePairList::set_coupling(NodeCoupling f) {
     require_built("set_coupling");
-    coupling_.set(half_rows_.offsets(), half_rows_.values(), f);
+    coupling_.set({half_rows_.offsets(), half_rows_.values(), slots_}, f);
 }
 
 void NodePairList::set_coupling(Offset k, double value) {
     require_built("set_coupling");
-    coupling_.set(half_rows_.offsets(), half_rows_.values(), k, value);
+    coupling_.set({half_rows_.offsets(), half_rows_.values(), slots_}, k, value);
 }
 
 void NodePairList::start_generation(Generation generation, bool built) noexcept {

@@ -58,6 +58,20 @@ TEST(Coupling, a_functor_sets_every_pair) {
     }
 }
 
+TEST(Coupling, a_functor_sees_the_nodes_of_the_pair_in_key_order_too) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        const Case c = random_pairs(seed);
+        ConnectivityMap map;
+        MapOptions options = map_options(c);
+        options.order = ListOrder::key;
+        map.rebuild(node_lists(c), options);
+        map.pairs().set_coupling(factor);
+        const auto flat = map.pairs().expanded_view();
+        for (Offset k = 0; k < flat.size(); ++k)
+            ASSERT_EQ(flat.coupling(k), factor(flat.i(k), flat.j(k))) << c.text;
+    }
+}
+
 TEST(Coupling, a_value_that_is_not_in_zero_to_one_is_refused_and_the_old_ones_stay) {
     ConnectivityMap map;
     rebuild(map, cloud(2000, 3, 0.06));
@@ -167,7 +181,7 @@ TEST(Coupling, a_patch_carries_the_values_of_surviving_pairs) {
     coupling.prepare_remap(ConstView<Offset>(kept.data(), kept.size()));
     coupling.commit_remap();
     EXPECT_FALSE(coupling.exists());
-    coupling.set(all, partners, NodeCoupling(factor));
+    coupling.set({all, partners, {}}, NodeCoupling(factor));
     coupling.prepare_remap(ConstView<Offset>(kept.data(), kept.size()));
     coupling.abandon_remap();
     EXPECT_EQ(coupling.values().size(), 3u);

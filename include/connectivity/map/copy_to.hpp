@@ -33,7 +33,9 @@ NodePairList::View<Space> copy_to(const NodePairList::View<>& pairs) {
             detail::copied<Space>("map/pairs/copy/i", pairs.i),
             pairs.generation,
             pairs.stamp,
-            detail::copied<Space>("map/pairs/copy/coupling", pairs.coupling)};
+            detail::copied<Space>("map/pairs/copy/coupling", pairs.coupling),
+            detail::copied<Space>("map/pairs/copy/nodes", pairs.slots),
+            detail::copied<Space>("map/pairs/copy/ranks", pairs.ranks)};
 }
 
 template <class Space, class Value, int n>

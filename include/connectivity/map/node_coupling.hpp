@@ -41,6 +41,15 @@ private:
     void (*call_)(const void*, Slot, std::span<const Slot>, double*);
 };
 
+/// Pairs as NodePairList has them.
+struct HalfRows {
+    ConstView<Offset> offsets;  ///< [n_slots + 1]
+    ConstView<Slot> j;          ///< [n_pairs]
+    ConstView<Slot> nodes;      ///< [n_slots]: whose half row it is; empty: slot by slot
+
+    Slot node(Offset row) const { return nodes.size() > 0 ? nodes(row) : static_cast<Slot>(row); }
+};
+
 /// The stored factors of one pair list, for NodePairList.
 class PairCoupling {
 public:
@@ -50,13 +59,13 @@ public:
     double operator[](Offset k) const { return exists_ ? values_(k) : 1.0; }
     Offset bytes() const;
 
-    /// Sets all pairs, given as half rows. Throws Error{argument} for the first pair whose value is
+    /// Sets all pairs. Throws Error{argument} for the first pair whose value is
     /// not in [0, 1], Error{memory}, and what f throws.
-    void set(const ConstView<Offset>& offsets, const ConstView<Slot>& j, const NodeCoupling& f);
+    void set(const HalfRows& pairs, const NodeCoupling& f);
 
     /// Sets pair k; the others stay (1 where there are none yet). Throws Error{argument},
     /// Error{memory}.
-    void set(const ConstView<Offset>& offsets, const ConstView<Slot>& j, Offset k, double value);
+    void set(const HalfRows& pairs, Offset k, double value);
 
     /// Forgets the values and gives their memory back.
     void clear() noexcept;
