@@ -11,7 +11,7 @@ using detail::OverlapRows;
 using detail::OverlapSource;
 
 namespace {
-constexpr Offset labels_per_chunk = 256;
+constexpr Offset labels_per_chunk = 512;
 }
 
 const OverlapRows* OverlapBuild::count_chunk(const OverlapSource& source, Worker& worker,
@@ -29,8 +29,23 @@ const OverlapRows* OverlapBuild::count_chunk(const OverlapSource& source, Worker
     return head;
 }
 
-OverlapSource OverlapBuild::with_places(const OverlapInput& input) {
-    if (input.order == nullptr) return {input, nullptr};
+LabelRows OverlapBuild::by_place(LabelRows rows, const OverlapInput& input, Csr& copy) const {
+    const Slot *const order = input.order, *const place_of = place_of_.data();
+    copy.prepare(input.labels.layout.n_slots(), [=](Offset k) { return rows.size(order[k]); });
+    copy.reserve();
+    copy.commit([=](Offset first, Offset last, const Offset* offsets, Slot* values) {
+        constexpr Offset ahead = 8;
+        for (Offset k = first; k < last; ++k) {
+            if (k + ahead < last) rows.prefetch(order[k + ahead]);
+            Slot* out = values + offsets[k];
+            for (const Slot label : rows[order[k]]) *out++ = place_of[label];
+        }
+    });
+    return {copy.offsets().data(), copy.values().data()};
+}
+
+OverlapSource OverlapBuild::in_places(const OverlapInput& input) {
+    if (input.order == nullptr) return {input.gather, input.scatter, input.labels};
     const Offset n = input.labels.layout.n_slots();
     ensure_capacity(place_of_, "map/overlap/place_of", n);
     Slot* const place_of = place_of_.data();
@@ -39,7 +54,10 @@ OverlapSource OverlapBuild::with_places(const OverlapInput& input) {
                          Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, n),
                          [=](const Offset k) { place_of[order[k]] = static_cast<Slot>(k); });
     HostExec().fence();
-    return {input, place_of};
+    const LabelRows gather = by_place(input.gather, input, gather_);
+    const bool same = input.gather.values == input.scatter.values &&
+                      input.gather.offsets == input.scatter.offsets;
+    return {gather, same ? gather : by_place(input.scatter, input, scatter_), input.labels, order};
 }
 
 Offset OverlapBuild::prepare(const OverlapInput& input, Csr& out) {
@@ -50,7 +68,7 @@ Offset OverlapBuild::prepare(const OverlapInput& input, Csr& out) {
     for (Worker& worker : workers_) worker.arena.reset();
     chunks_.resize(static_cast<std::size_t>(n_chunks));
     ensure_capacity(counts_, "map/overlap/counts", n * n_lists_);
-    const OverlapSource source = with_places(input);
+    const OverlapSource source = in_places(input);
     detail::FirstException failure;
     for_each_dynamic("map/overlap/count", n_chunks, [&](int worker, Offset chunk) {
         if (failure.any()) return;
@@ -106,6 +124,7 @@ void OverlapBuild::commit(Csr& out) {
 Offset OverlapBuild::bytes() const {
     Offset sum = static_cast<Offset>(chunks_.capacity() * sizeof(void*) +
                                      (counts_.size() + place_of_.size()) * sizeof(Slot));
+    sum += gather_.bytes() + scatter_.bytes();
     for (const Worker& worker : workers_)
         sum += worker.block.bytes() + worker.arena.bytes() +
                static_cast<Offset>(worker.row.capacity() * sizeof(Slot));

@@ -6,10 +6,12 @@
 /// itself, so O(a) holds all neighbours of a. Source: the overlap connectivity of Spheral's design.
 /// The relation is symmetric.
 ///
-/// Invariant: between `prepare` and `commit` the rows lie in arenas as bits, about a sixth of the
-/// memory of the result where neighbours are close in the order, at most three times it where not;
-/// `commit` only expands them and reads nothing of the input. Cost: see overlap_block.hpp. A node
-/// that sees very many is a block of its own and costs the rows of all its witnesses.
+/// Where an order is given, rows are first copied into it: a block then reads them side by side,
+/// and not all over the memory once a witness. Invariant: between `prepare` and `commit` the rows
+/// lie in arenas as bits, about a sixth of the memory of the result where neighbours are close in
+/// the order, at most three times it where not; `commit` only expands them and reads nothing of the
+/// input. Cost: see overlap_block.hpp. A node that sees very many is a block of its own and costs
+/// the rows of all its witnesses.
 
 #include <connectivity/base/csr.hpp>
 #include <connectivity/base/parallel.hpp>
@@ -42,14 +44,16 @@ private:
 
     const detail::OverlapRows* count_chunk(const detail::OverlapSource& input, Worker& worker,
                                            Offset first, Offset last);
-    detail::OverlapSource with_places(const OverlapInput& input);
+    detail::OverlapSource in_places(const OverlapInput& input);
+    LabelRows by_place(LabelRows rows, const OverlapInput& input, Csr& copy) const;
     void write(const detail::OverlapRows& rows, Slot* row, Csr& out, bool past_caches) const;
 
     int n_lists_ = 1;
     std::vector<Worker> workers_;
-    std::vector<const detail::OverlapRows*> chunks_;  // first block of each
-    View<Slot> counts_;                               // [n_slots * n_lists]
-    View<Slot> place_of_;                             // [n_slots] by label
+    std::vector<const detail::OverlapRows*> chunks_;                     // first block of each
+    View<Slot> counts_;                                                  // [n_slots * n_lists]
+    View<Slot> place_of_;                                                // [n_slots] by label
+    Csr gather_{"map/overlap/gather"}, scatter_{"map/overlap/scatter"};  // by place, of places
 };
 
 }  // namespace connectivity

@@ -15,9 +15,9 @@ namespace connectivity::detail {
 namespace {
 
 // Measured: bits of witnesses that stay in a second-level cache are read fastest, and more than a
-// few dozen members share them well. Beyond the second pair of limits sharing costs too much
-// memory.
-constexpr Offset good_bit_bytes = Offset{1} << 20, most_bit_bytes = Offset{1} << 26;
+// few dozen members share them well, unless they are far apart. Beyond the second pair of limits
+// sharing costs too much memory.
+constexpr Offset good_bit_bytes = Offset{1} << 21, most_bit_bytes = Offset{1} << 26;
 constexpr Offset good_seen = Offset{1} << 20, most_seen = Offset{1} << 26;
 constexpr std::size_t enough_members = 32;
 
@@ -35,27 +35,29 @@ bool OverlapBlock::is_full() const {
     const Offset bit_bytes = witnesses * padded_words(numbers_.n()) * 8,
                  seen = static_cast<Offset>(seen_.size());
     if (alone_ || bit_bytes > most_bit_bytes || seen > most_seen) return true;
-    return members_.size() >= enough_members && (bit_bytes > good_bit_bytes || seen > good_seen);
+    const bool shares = static_cast<Offset>(use_.size()) > 2 * witnesses;
+    return (members_.size() >= enough_members || !shares) &&
+           (bit_bytes > good_bit_bytes || seen > good_seen);
 }
 
 /// The number of a witness among the block's.
-int OverlapBlock::witness(const OverlapSource& input, Slot label) {
-    const auto number = static_cast<std::size_t>(numbers_.add(input.place(label)));
+int OverlapBlock::witness(const OverlapSource& input, Slot place) {
+    const auto number = static_cast<std::size_t>(numbers_.add(place));
     if (number >= witness_of_.size())
         witness_of_.resize(static_cast<std::size_t>(numbers_.n()), -1);
     if (witness_of_[number] < 0) {
         witness_of_[number] = static_cast<int>(witnesses_.size());
-        witnesses_.push_back(label);
-        __builtin_prefetch(input.scatter.offsets + label);
+        witnesses_.push_back(place);
+        __builtin_prefetch(input.scatter.offsets + place);
     }
     return witness_of_[number];
 }
 
-void OverlapBlock::add_member(const OverlapSource& input, Slot label) {
-    members_.push_back(label);
-    own_.push_back(numbers_.add(input.place(label)));
-    use_.push_back(witness(input, label));
-    for (const Slot k : input.gather[label]) use_.push_back(witness(input, k));
+void OverlapBlock::add_member(const OverlapSource& input, Slot place) {
+    members_.push_back(place);
+    own_.push_back(numbers_.add(place));
+    use_.push_back(witness(input, place));
+    for (const Slot k : input.gather[place]) use_.push_back(witness(input, k));
     use_end_.push_back(static_cast<Offset>(use_.size()));
 }
 
@@ -65,10 +67,9 @@ Offset OverlapBlock::add(const OverlapSource& input, Offset first, Offset last) 
     const Offset most = 4 * static_cast<Offset>(witnesses_.size()) + 1024;
     Offset place = first;
     for (const Offset end = std::min(last, first + batch); place < end; ++place) {
-        const Slot label = input.label_at(static_cast<Slot>(place));
-        const bool is_large = input.gather.size(label) > most;
+        const bool is_large = input.gather.size(place) > most;
         if (is_large && !members_.empty()) break;
-        add_member(input, label);
+        add_member(input, static_cast<Slot>(place));
         if (is_large) {
             Offset seen = 0;
             for (const Slot k : witnesses_) seen += input.scatter.size(k) + 1;
@@ -78,7 +79,7 @@ Offset OverlapBlock::add(const OverlapSource& input, Offset first, Offset last) 
         }
     }
     for (Offset next = place; next < std::min(last, place + batch); ++next)
-        input.gather.prefetch(input.label_at(static_cast<Slot>(next)));
+        input.gather.prefetch(next);
     read_witnesses(input);
     return place - first;
 }
@@ -94,8 +95,8 @@ void OverlapBlock::read_witnesses(const OverlapSource& input) {
         const auto row = input.scatter[witnesses_[w]];
         const std::size_t at = alone_ ? 0 : seen_.size();
         if (seen_.size() < at + row.size() + 1) seen_.resize(at + row.size() + 1);
-        seen_[at] = numbers_.add(input.place(witnesses_[w]));
-        numbers_.add(row, input.place_of, seen_.data() + at + 1);
+        seen_[at] = numbers_.add(witnesses_[w]);
+        numbers_.add(row, nullptr, seen_.data() + at + 1);
         seen_end_.push_back(static_cast<Offset>(seen_.size()));
     }
 }
@@ -191,7 +192,7 @@ OverlapRows* OverlapBlock::store(const OverlapSource& input, WordArena& arena, S
         use = end;
         const int own = rank_[static_cast<std::size_t>(own_[static_cast<std::size_t>(m)])];
         bits[own / 64] &= ~(std::uint64_t{1} << own % 64);
-        const Slot slot = input.labels.slot(members_[static_cast<std::size_t>(m)]);
+        const Slot slot = input.labels.slot(input.label_at(members_[static_cast<std::size_t>(m)]));
         const_cast<Slot*>(rows->members)[m] = slot;
         count(*rows, m, counts + Offset{slot} * input.labels.layout.n_lists());
     }

@@ -28,12 +28,13 @@ struct OverlapInput {
 
 namespace detail {
 
-/// The same with the inverse of the order.
-struct OverlapSource : OverlapInput {
-    const Slot* place_of = nullptr;  ///< [n_slots] by label; null: places are labels
+/// The same in places of the order: rows by place, of places.
+struct OverlapSource {
+    LabelRows gather, scatter;
+    const Labels& labels;
+    const Slot* order = nullptr;  ///< [n_slots] labels by place; null: places are labels
 
     Slot label_at(Slot place) const { return order != nullptr ? order[place] : place; }
-    Slot place(Slot label) const { return place_of != nullptr ? place_of[label] : label; }
 };
 
 /// Overlap rows of the members of a block, in an arena.
@@ -51,7 +52,7 @@ public:
     /// Forgets the members.
     void begin();
 
-    /// Adds the labels at places [first, last), or at first those that go together with the
+    /// Adds the nodes at places [first, last), or at first those that go together with the
     /// members; returns how many. Throws std::bad_alloc.
     Offset add(const OverlapSource& input, Offset first, Offset last);
 
@@ -65,8 +66,8 @@ public:
     Offset bytes() const;
 
 private:
-    void add_member(const OverlapSource& input, Slot label);
-    int witness(const OverlapSource& input, Slot label);
+    void add_member(const OverlapSource& input, Slot place);
+    int witness(const OverlapSource& input, Slot place);
     void read_witnesses(const OverlapSource& input);
     void order_universe(const OverlapSource& input);
     void write_witness_bits(long stride);
@@ -74,10 +75,10 @@ private:
     void count(const OverlapRows& rows, int member, Slot* counts) const;
 
     LocalNumbers numbers_;
-    std::vector<Slot> members_, witnesses_;
-    std::vector<int> own_;         // number of each member
-    std::vector<int> witness_of_;  // by number; -1: no witness
-    std::vector<int> use_;         // witnesses, member by member
+    std::vector<Slot> members_, witnesses_;  // places
+    std::vector<int> own_;                   // number of each member
+    std::vector<int> witness_of_;            // by number; -1: no witness
+    std::vector<int> use_;                   // witnesses, member by member
     std::vector<Offset> use_end_;
     std::vector<int> seen_;  // numbers at each witness, witness by witness
     std::vector<Offset> seen_end_;
