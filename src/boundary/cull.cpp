@@ -37,6 +37,7 @@ void name(Slot* keep, Slot slot) {
 void flag_in_rows(const ConnectivityMap& map, Slot* keep) {
     const RowsView<> rows = map.rows();
     std::vector<Slot> first_ghost;
+    first_ghost.reserve(map.n_internal().size());
     for (int list = 0; list < rows.n_lists; ++list)
         first_ghost.push_back(
             static_cast<Slot>(map.layout().list_offset()[static_cast<std::size_t>(list)] +
