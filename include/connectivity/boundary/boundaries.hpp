@@ -66,7 +66,8 @@ public:
 
     /// Drops all ghosts, makes them anew, rebuilds the map and culls. Ghosts in `lists` are
     /// ignored. With overlap ghosts reach two supports deep. Throws Error as `make` and
-    /// ConnectivityMap::rebuild do.
+    /// ConnectivityMap::rebuild do; where only the cull fails, for memory, ghosts and map are those
+    /// of this step, none culled.
     void update(ConnectivityMap& map, std::span<const NodeList> lists, const MapOptions& options,
                 const GhostOptions& ghosts = {});
 
