@@ -30,7 +30,9 @@ struct IntersectionInput {
     Periods<Dim> periods;
     bool in_segment;  ///< only nodes between the two, see segment.hpp
     const Labels& labels;
-    const Slot* order = nullptr;  ///< [n_slots] labels, close ones together; null: ascending
+    /// [n_slots] labels, close ones together; null: ascending, many times slower where labels say
+    /// nothing of the place.
+    const Slot* order = nullptr;
 };
 
 namespace detail {

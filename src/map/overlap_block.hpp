@@ -23,7 +23,9 @@ struct OverlapInput {
     LabelRows gather;   ///< the labels that a label sees, without itself
     LabelRows scatter;  ///< the labels that see it; the same arrays if all supports are equal
     const Labels& labels;
-    const Slot* order = nullptr;  ///< [n_slots] labels, close ones together; null: ascending
+    /// [n_slots] labels, close ones together; null: ascending, many times slower where labels say
+    /// nothing of the place.
+    const Slot* order = nullptr;
 };
 
 namespace detail {
