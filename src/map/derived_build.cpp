@@ -188,7 +188,7 @@ void DerivedBuild<Dim>::prepare(const DerivedRequest<Dim>& request, const Labels
         const Stopwatch watch;
         needs.intersection = intersection_.prepare(
             {label_rows(rows_), label_rows(half_rows_), nodes_.positions.data(), nodes_.periods,
-             options.intersection == IntersectionKind::in_segment, labels},
+             options.intersection == IntersectionKind::in_segment, labels, near_order_.data()},
             lists.intersection);
         report.entry("intersection").ms += watch.ms();
     }
@@ -260,7 +260,8 @@ void DerivedBuild<Dim>::run(const DerivedRequest<Dim>& request, Search<Dim>& sea
     report.entry("key_order").ms = by_key ? ordering.ms() : 0;
     // Ranks are close where nodes are; slots need not be.
     near_order_ = {};
-    if (options.spatial_order || (options.overlap && !by_key))
+    const bool walks = options.overlap || options.intersection != IntersectionKind::none;
+    if (options.spatial_order || (walks && !by_key))
         near_order_ = search.spatial_order(nodes_, report);
     try {
         search_rows(request, labels, search, report);

@@ -50,6 +50,29 @@ int report(Status status, std::string text) {
     return static_cast<int>(status) & 0xff;
 }
 
+/// Lists beyond rows and pairs, and their order.
+void add_lists(CLI::App& sub, PairsOptions& o) {
+    const std::map<std::string, IntersectionKind> kinds{{"filtered", IntersectionKind::in_segment},
+                                                        {"unfiltered", IntersectionKind::all}};
+    const std::map<std::string, ListOrder> orders{{"slot", ListOrder::slot},
+                                                  {"key", ListOrder::key}};
+    sub.add_flag("--overlap", o.overlap, "Also which nodes see a common node; implies ghost rows");
+    sub.add_option("--intersection", o.intersection,
+                   "Also the common neighbours of each pair that lie between the two (filtered), "
+                   "or all of them (unfiltered); implies ghost rows")
+        ->expected(0, 1)
+        ->default_str("filtered")
+        ->transform(CLI::CheckedTransformer(kinds).description(""))
+        ->type_name("[=filtered|unfiltered]");
+    sub.add_option("--order", o.order,
+                   "slot: by list and node; key: by Morton key, whatever the order in the file; "
+                   "implies ghost rows")
+        ->transform(CLI::CheckedTransformer(orders).description(""))
+        ->type_name("slot|key");
+    sub.add_flag("--cull", o.cull,
+                 "Drop ghosts that no internal node interacts with, and renumber the others");
+}
+
 void add_pairs(CLI::App& app, PairsOptions& o) {
     const std::map<std::string, SearchMethod> methods{{"automatic", SearchMethod::automatic},
                                                       {"brute", SearchMethod::brute},
@@ -70,6 +93,7 @@ void add_pairs(CLI::App& app, PairsOptions& o) {
     sub->add_option("--plot", o.plot, "Draw projected density and neighbour counts (needs gnuplot)")
         ->type_name("FILE.png");
     sub->add_flag("--ghost-rows", o.ghost_rows, "Rows for ghosts too, and pairs between ghosts");
+    add_lists(*sub, o);
     sub->add_option("--extent", o.extent,
                     "Support radius in units of h, instead of what the format says")
         ->check(CLI::PositiveNumber)

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <connectivity/search/search.hpp>
+#include <connectivity/map/map_options.hpp>
 
 namespace connectivity::program {
 
@@ -17,6 +17,9 @@ struct PairsOptions {
     std::vector<std::string> lists;  ///< in this order; empty: all that have supports
     std::string out, plot;           ///< empty: none
     bool density = false, ghost_rows = false, open = false;
+    bool overlap = false, cull = false;
+    IntersectionKind intersection = IntersectionKind::none;
+    ListOrder order = ListOrder::slot;
     std::optional<double> extent;
     std::optional<Offset> step;
     SearchMethod method = SearchMethod::automatic;

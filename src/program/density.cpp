@@ -79,10 +79,13 @@ ConstView<double> density(const ConnectivityMap& map, int list, const NodeList& 
     const auto& row_offset = map.layout().row_offset();
     const auto k = static_cast<std::size_t>(list);
     if (row_offset[k + 1] - row_offset[k] < nodes.n()) {
-        MapOptions options = map.options();
+        MapOptions options;
         options.pairs = false;
         options.ghost_rows = true;
         options.mode = SearchMode::gather;
+        options.method = map.options().method;
+        options.domain = map.options().domain;
+        options.budget = map.options().budget;
         ConnectivityMap own;
         own.rebuild({&nodes, 1}, options);
         return density(own, 0, nodes, mass);

@@ -2,6 +2,7 @@
 // `connectivity pairs`: read, search, report; on request density, result file and picture.
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +13,7 @@
 
 #include "program/commands.hpp"
 #include "program/console.hpp"
+#include "program/cull.hpp"
 #include "program/density.hpp"
 #include "program/describe.hpp"
 #include "program/plot.hpp"
@@ -40,12 +42,14 @@ public:
           reader_(open_snapshot(options.file, {options.extent, options.step, options.open})),
           names_(select_lists(reader_->info(), options.lists)),
           console_(static_cast<int>(names_.size() * (options.density ? 2 : 1)) + 1 +
-                   !options.out.empty() + !options.plot.empty()) {}
+                   !options.out.empty() + !options.plot.empty() + options.cull) {}
 
     void run() {
         Console::line(describe_input(reader_->info()));
         read();
         search();
+        if (options_.cull) cull();
+        describe_result();
         if (options_.density) compute_densities();
         if (!options_.out.empty()) console_.phase("writing " + options_.out, [&] { write(); });
         if (!options_.plot.empty()) console_.phase("drawing " + options_.plot, [&] { draw(); });
@@ -55,6 +59,8 @@ public:
 private:
     void read();
     void search();
+    void cull();
+    void describe_result();
     void compute_densities();
     void compare(std::size_t k);
     void write();
@@ -68,6 +74,7 @@ private:
     std::vector<ListData> lists_;
     std::vector<NodeList> nodes_;
     ConnectivityMap map_;
+    NewSlots new_slots_;  // of culling
     std::vector<PlotCounts> counts_;
     std::vector<std::optional<ConstView<double>>> densities_;  // [n_lists] if asked for
 };
@@ -76,21 +83,41 @@ void PairsRun::read() {
     FieldRequest fields;
     fields.mass = options_.density || !options_.plot.empty();
     fields.density = options_.density;
+    fields.global_id = options_.order == ListOrder::key;
     for (const auto& name : names_)
         console_.phase("reading " + name, [&] { lists_.push_back(reader_->read(name, fields)); });
-    for (const auto& list : lists_) nodes_.push_back(list.nodes);
+    for (auto& list : lists_) {
+        if (list.global_id.size() > 0) list.nodes.set_global_ids(list.global_id);
+        nodes_.push_back(list.nodes);
+    }
     Console::line("\n" + describe_lists(lists_) + "\n");
 }
 
 void PairsRun::search() {
     MapOptions options;
     options.ghost_rows = options_.ghost_rows;
+    options.overlap = options_.overlap;
+    options.intersection = options_.intersection;
+    options.order = options_.order;
     options.method = options_.method;
     options.domain = reader_->info().domain;
     options.budget.bytes = static_cast<Offset>(options_.budget);
     console_.phase(fmt::format("searching with {} thread{}", runtime_threads(),
                                runtime_threads() == 1 ? "" : "s"),
                    [&] { map_.rebuild(nodes_, options); });
+}
+
+void PairsRun::cull() {
+    const Offset before = map_.layout().n_slots();
+    console_.phase("culling ghosts", [&] { new_slots_ = cull_ghosts(map_, lists_); });
+    nodes_.clear();
+    for (const auto& list : lists_) nodes_.push_back(list.nodes);
+    Console::line(fmt::format(
+        "{} of {} ghosts culled", before - map_.layout().n_slots(),
+        before - std::accumulate(map_.n_internal().begin(), map_.n_internal().end(), Offset{0})));
+}
+
+void PairsRun::describe_result() {
     for (std::size_t k = 0; k < nodes_.size(); ++k)
         counts_.push_back(
             {names_[k], neighbour_statistics(map_, static_cast<int>(k), nodes_[k].n_internal())});
@@ -102,6 +129,9 @@ void PairsRun::search() {
         Console::line(
             fmt::format("{:.2f} bytes a pair in the pair list",
                         static_cast<double>(map_.pairs().bytes()) / static_cast<double>(n_pairs)));
+    if (options_.overlap) Console::line(fmt::format("{} overlap entries", map_.overlap().size()));
+    if (options_.intersection != IntersectionKind::none)
+        Console::line(fmt::format("{} intersection entries", map_.intersection().size()));
     Console::line("\n" + describe_counts(counts_) + "\n");
 }
 
@@ -136,7 +166,8 @@ void PairsRun::compare(std::size_t k) {
 
 void PairsRun::write() {
     ResultFile out(options_.out);
-    out.write(map_, nodes_, options_.command);
+    out.write(map_, options_.command);
+    if (options_.cull) out.write_cull(new_slots_);
     const auto& info = reader_->info();
     for (std::size_t k = 0; k < densities_.size(); ++k)
         if (densities_[k])

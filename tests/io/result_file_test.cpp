@@ -32,7 +32,7 @@ TEST(ResultFile, has_the_documented_parts_and_types) {
     map.rebuild(lists, {});
     {
         ResultFile out(folder / "r.h5");
-        out.write(map, lists, "the command");
+        out.write(map, "the command");
         out.write_density("chain", view({1, 2, 3}), "g/cm");
         out.commit();
     }
@@ -73,7 +73,7 @@ TEST(ResultFile, rows_without_neighbours_are_written) {
     ConnectivityMap map;
     map.rebuild(lists, {});
     ResultFile out(folder / "r.h5");
-    out.write(map, lists, "");
+    out.write(map, "");
     out.commit();
     const auto file = PlainFile::open(folder / "r.h5");
     EXPECT_EQ(file.extents("rows/slots"), Extents{0});

@@ -162,6 +162,8 @@ private:
     void report_bytes();
     void publish_pairs();
     void check_list(const char* call, int list) const;
+    std::span<const Slot> row_of(const char* call, Slot slot) const;
+    std::vector<Slot> combined(const char* call, Slot a, Slot b, bool all) const;
     void require_fields(const char* call, std::span<PairFieldBase* const> fields) const;
     void finish_patch(std::span<PairFieldBase* const> fields, double ms);
     void traverse(const char* call, std::span<const NodeList> lists, const MapOptions& options,
