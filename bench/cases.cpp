@@ -6,6 +6,7 @@
 
 #include "contestants.hpp"
 #include "host_step.hpp"
+#include "pair_sums.hpp"
 #include "yardstick.hpp"
 
 namespace connectivity::bench {
@@ -29,7 +30,8 @@ void add(std::vector<CaseName>& cases, CaseName c, const Names& forms, const Nam
             c.who = "ours";
             for (const std::string& variant : variants) {
                 c.variant = variant;
-                if (form == "pairs" || !is_host_step(variant)) cases.push_back(c);
+                if (form == "pairs" || !(is_host_step(variant) || is_pair_sum(variant)))
+                    cases.push_back(c);
             }
         }
 }
@@ -51,7 +53,8 @@ void add_sizes(std::vector<CaseName>& cases, const std::string& workload) {
         if (size == "1e3" || size == "1e4") {
             variants = methods;
             if (workload == "W1" || workload == "W3")
-                variants.insert(variants.end(), {"3lists", "tensor", "step", "reordered"});
+                variants.insert(variants.end(), {"3lists", "tensor", "step", "reordered",
+                                                 "sumatomic", "sumrows", "sumcolours"});
         }
         if ((workload == "W1" || workload == "W3" || workload == "W7") &&
             (size == "1e3" || size == "1e4" || size == "1e5"))
@@ -83,7 +86,8 @@ std::vector<CaseName> all_cases() {
     for (const std::string workload : test::all_workloads)
         add(cases, named(workload), all_forms,
             workload == "W1" || workload == "W3"
-                ? Names{"3lists", "tensor", "device", "step", "reordered"}
+                ? Names{"3lists", "tensor", "device", "step", "reordered", "sumatomic", "sumrows",
+                        "sumcolours"}
             : workload == "W7" ? Names{"device", "step", "reordered"}
                                : Names{"step", "reordered"});
     for (const std::string workload : test::all_workloads)

@@ -7,8 +7,9 @@
 /// ours: `3lists` (nodes dealt to three lists), `tensor` (ellipsoids of axis ratio 2), a search
 /// method instead of the automatic choice, or a host's whole step, rebuild and one loop over the
 /// pairs, with nodes as they come (`step`) or in spatial order (`reordered`), or one of 100 steps
-/// on average, with a skin of s mean supports (`skin<s>`). Cases that differ by who and variant
-/// only are a group, measured in turns in one process.
+/// on average, with a skin of s mean supports (`skin<s>`), or one sum of a field over pairs at its
+/// nodes, without a build (`sumatomic`, `sumrows`, `sumcolours`). Cases that differ by who and
+/// variant only are a group, measured in turns in one process.
 
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 
     python3 bench/charts.py record.json [more.json ...] --out DIR
 
-P7 time per node against size, P8 search methods on hard scenes, P9 reuse of pairs with a skin, P17 price of checking the input, P18 small builds.
+P7 time per node against size, P8 search methods on hard scenes, P9 reuse of pairs with a skin, P13 price of deterministic sums, P17 price of checking the input, P18 small builds.
 """
 
 import argparse
@@ -160,6 +160,24 @@ def reuse(cases, out):
         "pairs within the support at the end are those of the definition for all skins."), False, False)
 
 
+def price_of_determinism(cases, out):
+    """Sums over pairs whose bits do not depend on threads, relative to atomic additions."""
+    rows, heights = [], {}
+    for case, runs in cases.items():
+        base = cases.get(case._replace(variant="sumatomic"))
+        if case.variant.startswith("sum") and base:
+            ratio = runs.ms() / base.ms()
+            rows.append([case.workload, case.threads, runs.get("nodes"), case.variant[3:], runs.ms(), ratio])
+            heights.setdefault(f"{case.workload}{'@' + case.size if case.size else ''}, {case.threads}", {})[
+                case.variant[3:]] = ratio
+    chart = Chart(out, "P13_price_of_determinism", ["workload", "threads", "nodes", "way", "ms", "over_atomic"], rows)
+    worst = max((row for row in rows if row[3] == "rows"), key=lambda row: row[5], default=None)
+    chart.bars(heights, "time / atomic additions", worst and (
+        "P13: one stored double a pair summed at both nodes, by scene and threads, nodes in spatial order: gathered along rows "
+        f"(same bits with any number of threads) costs most on {worst[0]} with {worst[1]} threads: {worst[5]:.2f} times the "
+        "atomic sum (1.2 allowed on 2); lists of entry and colour, made once per rebuild, are not counted."))
+
+
 def price_of_checks(cases, out):
     curves = curves_of(cases, lambda runs: runs.get("check_percent"),
                        lambda case: case.who == "ours" and is_plain(case) and case.form == "rows" and case.threads == 2)
@@ -188,7 +206,7 @@ def main():
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     _, cases = read(arguments.records)
-    for chart in (time_per_node, hard_scenes, reuse, price_of_checks, small_builds):
+    for chart in (time_per_node, hard_scenes, reuse, price_of_determinism, price_of_checks, small_builds):
         chart(cases, arguments.out)
     print(f"{arguments.out}: " + ("CSV and PNG" if pyplot else "CSV only, matplotlib (python3-matplotlib) is missing"))
 

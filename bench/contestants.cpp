@@ -8,6 +8,7 @@
 #include <connectivity/map/connectivity_map.hpp>
 
 #include "host_step.hpp"
+#include "pair_sums.hpp"
 #if defined(CONNECTIVITY_BENCH_NANOFLANN)
 #include "nanoflann_peer.hpp"
 #endif
@@ -131,6 +132,7 @@ std::unique_ptr<Contestant> make_contestant(const std::string& who, const std::s
                                             const Input& input, Form form) {
     start_runtime();
     if (is_host_step(variant)) return make_host_step(input, variant);
+    if (is_pair_sum(variant)) return make_pair_sums(input, variant);
     if (who == "ours") return std::make_unique<Ours>(input, form, variant);
 #if defined(CONNECTIVITY_BENCH_NANOFLANN)
     if (who == "nanoflann") return make_nanoflann(input, form);

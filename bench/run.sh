@@ -17,7 +17,7 @@ any='^[a-z]+'
 standard="$any/W[1-7]/(rows|pairs|both)/[12](/(3lists|tensor|step|reordered))?\$|^(ours|yardstick)/W[1-7]/[a-z]+/[12]/first"
 sizes='^ours/W[1-7]/(rows|pairs)/2/[134]e[3-6]$'
 hard="$any/A[0-9a-z]+/rows/2|^ours/W[1-7]/rows/2/1e4"
-reuse='^ours/W1/pairs/2/1e4-skin'
+reuse='^ours/W1/pairs/2/1e4-skin|^ours/W[13]/pairs/[12]/(1e4-)?sum'
 small="$any/W1/rows/[12]/(1|10|100|1e3|1e4)(-(brute|groups))?\$"
 filter="$standard|$sizes|$hard|$small|$reuse" options=
 while [ $# -gt 0 ]; do
