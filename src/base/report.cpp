@@ -14,6 +14,8 @@ ReportEntry& Report::entry(std::string_view product) {
     const auto found = std::find_if(entries_.begin(), entries_.end(),
                                     [&](auto& e) { return e.product == product; });
     if (found != entries_.end()) return *found;
+    constexpr std::size_t usual = 16;  // small builds would notice the growth
+    if (entries_.empty()) entries_.reserve(usual);
     entries_.emplace_back();
     entries_.back().product = product;
     return entries_.back();

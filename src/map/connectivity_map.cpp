@@ -77,7 +77,7 @@ void ConnectivityMap::search_in(std::span<const NodeList> lists, const MapOption
                 options.spatial_order},
                rows_, pairs_.half_rows_, report);
     overlap_.clear(), intersection_.clear(), key_order_.clear();
-    derived.release();
+    if (derived.bytes() > 0) derived.release();
 }
 
 /// What the pair list shows of the order it is in.

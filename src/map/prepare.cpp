@@ -21,6 +21,7 @@ struct ListReader {
     double skin;
     double* widened;  // where tensors with the skin around them go; nullptr without skin
     std::array<double, Dim> half_length;  // of periodic axes, infinity elsewhere
+    HalfWidths widths;                    // whether there are periodic axes
 
     /// First fault of a node, and its squared reach if there is none.
     Fault examine(Offset node, double& reach2) const {
@@ -31,8 +32,9 @@ struct ListReader {
 
     /// How far the support of a node without other faults reaches along an axis.
     double width(Offset node, int d) const {
-        return h != nullptr ? extent * h[node] + skin
-                            : extent * tensor_support<Dim>(tested(node)).half_width[d];
+        return h != nullptr
+                   ? extent * h[node] + skin
+                   : extent * tensor_support<Dim>(tested(node), HalfWidths::all).half_width[d];
     }
 
 private:
@@ -51,12 +53,12 @@ private:
     }
 
     Fault examine_tensor(Offset node, double& reach2) const {
-        TensorSupport<Dim> support = tensor_support<Dim>(tensor(node));
+        TensorSupport<Dim> support = tensor_support<Dim>(tensor(node), widths);
         if (!support.positive_definite) return Fault::not_spd;
         if (widened != nullptr) {
             if (!widen_tensor<Dim>(tensor(node), extent, skin, widened + node * n_symmetric(Dim)))
                 return Fault::ill_conditioned;
-            support = tensor_support<Dim>(tested(node));
+            support = tensor_support<Dim>(tested(node), widths);
         }
         for (int d = 0; d < Dim; ++d)
             if (!(extent * support.half_width[d] <= half_length[d])) return Fault::half_box;
@@ -75,7 +77,8 @@ ListReader<Dim> reader(const NodeList& list, double extent, double skin, const D
                       extent,
                       skin,
                       nullptr,
-                      {}};
+                      {},
+                      domain.any_periodic(Dim) ? HalfWidths::all : HalfWidths::none};
     for (int d = 0; d < Dim; ++d)
         r.half_length[d] =
             domain.periodic[d] ? 0.5 * domain.length(d) : std::numeric_limits<double>::infinity();

@@ -86,13 +86,13 @@ constexpr double largest_slack = 0.1;
 }  // namespace
 
 template <int Dim>
-TensorSupport<Dim> tensor_support(const double* packed) {
+TensorSupport<Dim> tensor_support(const double* packed, HalfWidths widths) {
     TensorSupport<Dim> support;
     const Inverse<Dim> h = invert<Dim>(packed);
     if (!h.positive_definite) return support;
     const double reach = norm_bound<Dim>(h.inverse), slack = h.slack(reach);
     // A width that exceeds a limit by rounding only does not exceed it.
-    for (int d = 0; d < Dim; ++d)
+    for (int d = 0; d < Dim && widths == HalfWidths::all; ++d)
         support.half_width[d] = h.tensor.isDiagonal(0.0) ? 1 / h.tensor(d, d)
                                                          : h.inverse.col(d).stableNorm() *
                                                                (1 - std::min(slack, largest_slack));
@@ -147,9 +147,9 @@ double tensor_growth(const double* before, const double* after) {
     return norm + a_slack * a_reach + 2 * b_slack * b_reach;
 }
 
-template TensorSupport<1> tensor_support<1>(const double*);
-template TensorSupport<2> tensor_support<2>(const double*);
-template TensorSupport<3> tensor_support<3>(const double*);
+template TensorSupport<1> tensor_support<1>(const double*, HalfWidths);
+template TensorSupport<2> tensor_support<2>(const double*, HalfWidths);
+template TensorSupport<3> tensor_support<3>(const double*, HalfWidths);
 template bool widen_tensor<1>(const double*, double, double, double*);
 template bool widen_tensor<2>(const double*, double, double, double*);
 template bool widen_tensor<3>(const double*, double, double, double*);

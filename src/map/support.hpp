@@ -30,13 +30,16 @@ inline double widened_reach2(double h, double extent, double skin) {
 template <int Dim>
 struct TensorSupport {
     bool positive_definite = false;
-    double half_width[Dim];  ///< of the ellipsoid |H r| <= 1 along each axis
+    double half_width[Dim] = {};  ///< of the ellipsoid |H r| <= 1 along each axis, if asked for
     double radius = 0;  ///< of a ball that holds it, rounding of |H r|² included; may be infinite
 };
 
+/// Half widths cost as much as all the rest; only periodic axes ask for them.
+enum class HalfWidths { none, all };
+
 /// Every pivot must exceed 1e-14 of its diagonal entry: Sylvester's criterion, free of units.
 template <int Dim>
-TensorSupport<Dim> tensor_support(const double* packed);
+TensorSupport<Dim> tensor_support(const double* packed, HalfWidths widths);
 
 /// Writes the packed tensor W of an ellipsoid |W r| <= extent that holds every point within `skin`
 /// of the ellipsoid |H r| <= extent, for H that is positive definite: of all sums
