@@ -38,7 +38,7 @@ CONN_CHECK_OFFSET(conn_context_options, n_threads, 8);
 CONN_CHECK_OFFSET(conn_context_options, device_id, 12);
 CONN_CHECK_OFFSET(conn_context_options, budget_bytes, 16);
 
-static_assert(is_plain<conn_map_options> && sizeof(conn_map_options) == 112);
+static_assert(is_plain<conn_map_options> && sizeof(conn_map_options) == 160);
 CONN_CHECK_OFFSET(conn_map_options, struct_size, 0);
 CONN_CHECK_OFFSET(conn_map_options, rows, 8);
 CONN_CHECK_OFFSET(conn_map_options, pairs, 12);
@@ -52,6 +52,14 @@ CONN_CHECK_OFFSET(conn_map_options, box_lo, 48);
 CONN_CHECK_OFFSET(conn_map_options, box_hi, 72);
 CONN_CHECK_OFFSET(conn_map_options, budget_bytes, 96);
 CONN_CHECK_OFFSET(conn_map_options, skin, 104);
+CONN_CHECK_OFFSET(conn_map_options, overlap, 112);
+CONN_CHECK_OFFSET(conn_map_options, intersection, 116);
+CONN_CHECK_OFFSET(conn_map_options, order, 120);
+CONN_CHECK_OFFSET(conn_map_options, reserved_2, 124);
+CONN_CHECK_OFFSET(conn_map_options, active, 128);
+CONN_CHECK_OFFSET(conn_map_options, n_active, 136);
+CONN_CHECK_OFFSET(conn_map_options, interactions, 144);
+CONN_CHECK_OFFSET(conn_map_options, n_interactions, 152);
 
 static_assert(is_plain<conn_map_info> && sizeof(conn_map_info) == 72);
 CONN_CHECK_OFFSET(conn_map_info, struct_size, 0);
@@ -81,7 +89,7 @@ CONN_CHECK_OFFSET(conn_rows_view, list_offset, 64);
 CONN_CHECK_OFFSET(conn_rows_view, row_offset, 72);
 CONN_CHECK_OFFSET(conn_rows_view, owner, 80);
 
-static_assert(is_plain<conn_pairs_view> && sizeof(conn_pairs_view) == 96);
+static_assert(is_plain<conn_pairs_view> && sizeof(conn_pairs_view) == 112);
 CONN_CHECK_OFFSET(conn_pairs_view, struct_size, 0);
 CONN_CHECK_OFFSET(conn_pairs_view, n_pairs, 8);
 CONN_CHECK_OFFSET(conn_pairs_view, n_slots, 16);
@@ -96,6 +104,31 @@ CONN_CHECK_OFFSET(conn_pairs_view, j, 64);
 CONN_CHECK_OFFSET(conn_pairs_view, coupling, 72);
 CONN_CHECK_OFFSET(conn_pairs_view, list_offset, 80);
 CONN_CHECK_OFFSET(conn_pairs_view, owner, 88);
+CONN_CHECK_OFFSET(conn_pairs_view, slots, 96);
+CONN_CHECK_OFFSET(conn_pairs_view, ranks, 104);
+
+static_assert(is_plain<conn_intersection_view> && sizeof(conn_intersection_view) == 72);
+CONN_CHECK_OFFSET(conn_intersection_view, struct_size, 0);
+CONN_CHECK_OFFSET(conn_intersection_view, n_pairs, 8);
+CONN_CHECK_OFFSET(conn_intersection_view, n_entries, 16);
+CONN_CHECK_OFFSET(conn_intersection_view, generation, 24);
+CONN_CHECK_OFFSET(conn_intersection_view, in_segment, 32);
+CONN_CHECK_OFFSET(conn_intersection_view, space, 36);
+CONN_CHECK_OFFSET(conn_intersection_view, device_id, 40);
+CONN_CHECK_OFFSET(conn_intersection_view, reserved, 44);
+CONN_CHECK_OFFSET(conn_intersection_view, offsets, 48);
+CONN_CHECK_OFFSET(conn_intersection_view, slots, 56);
+CONN_CHECK_OFFSET(conn_intersection_view, owner, 64);
+
+static_assert(is_plain<conn_boundary_nodes> && sizeof(conn_boundary_nodes) == 64);
+CONN_CHECK_OFFSET(conn_boundary_nodes, struct_size, 0);
+CONN_CHECK_OFFSET(conn_boundary_nodes, n, 8);
+CONN_CHECK_OFFSET(conn_boundary_nodes, n_internal, 16);
+CONN_CHECK_OFFSET(conn_boundary_nodes, x, 24);
+CONN_CHECK_OFFSET(conn_boundary_nodes, h, 32);
+CONN_CHECK_OFFSET(conn_boundary_nodes, H, 40);
+CONN_CHECK_OFFSET(conn_boundary_nodes, owner, 48);
+CONN_CHECK_OFFSET(conn_boundary_nodes, global_id, 56);
 
 static_assert(is_plain<conn_report_entry> && sizeof(conn_report_entry) == 56);
 CONN_CHECK_OFFSET(conn_report_entry, struct_size, 0);
@@ -125,5 +158,19 @@ static_assert(CONN_GATHER == 1 && CONN_SCATTER == 2 && CONN_GATHER_SCATTER == 3)
 static_assert(CONN_METHOD_AUTOMATIC == 0 && CONN_METHOD_BRUTE == 1 && CONN_METHOD_CELLS == 2);
 static_assert(CONN_METHOD_GROUPS == 3 && CONN_METHOD_DEVICE == 4);
 static_assert(CONN_PAIRS_EXPAND == 1 && CONN_ROWS == 1 && CONN_PAIRS == 2);
+static_assert(CONN_INTERSECTION_NONE == 0 && CONN_INTERSECTION_ALL == 1 &&
+              CONN_INTERSECTION_IN_SEGMENT == 2);
+static_assert(CONN_ORDER_SLOT == 0 && CONN_ORDER_KEY == 1);
+static_assert(CONN_ANTISYMMETRIC == 1 && CONN_SYMMETRIC == 2 && CONN_TWO_SIDED == 3);
+static_assert(CONN_SUM_DETERMINISTIC == 0 && CONN_SUM_ATOMIC == 1);
+static_assert(CONN_BOUNDARY_REFLECTING == 1 && CONN_BOUNDARY_PERIODIC == 2);
+static_assert(CONN_GHOSTS_KEEP == 0 && CONN_GHOSTS_CULL == 1 && CONN_GHOSTS_CULL_MOST == 2 &&
+              CONN_GHOSTS_REFRESH == 3);
+static_assert(CONN_FIELD_SCALAR == 0 && CONN_FIELD_VECTOR == 1 && CONN_FIELD_TENSOR == 2);
+static_assert(CONN_STRUCT_ARRAY == 1 && CONN_STRUCT_CONTEXT_OPTIONS == 2 &&
+              CONN_STRUCT_MAP_OPTIONS == 3 && CONN_STRUCT_MAP_INFO == 4);
+static_assert(CONN_STRUCT_ROWS_VIEW == 5 && CONN_STRUCT_PAIRS_VIEW == 6 &&
+              CONN_STRUCT_REPORT_ENTRY == 7 && CONN_STRUCT_INTERSECTION_VIEW == 8 &&
+              CONN_STRUCT_BOUNDARY_NODES == 9);
 
 }  // namespace

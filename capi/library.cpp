@@ -73,6 +73,8 @@ int64_t conn_abi_sizeof(int32_t which) {
         case CONN_STRUCT_ROWS_VIEW: return sizeof(conn_rows_view);
         case CONN_STRUCT_PAIRS_VIEW: return sizeof(conn_pairs_view);
         case CONN_STRUCT_REPORT_ENTRY: return sizeof(conn_report_entry);
+        case CONN_STRUCT_INTERSECTION_VIEW: return sizeof(conn_intersection_view);
+        case CONN_STRUCT_BOUNDARY_NODES: return sizeof(conn_boundary_nodes);
         default: return 0;
     }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <utility>
 
+#include "arguments.hpp"
 #include "guard.hpp"
 #include "objects.hpp"
 #include "structs.hpp"
@@ -10,72 +12,17 @@ using namespace connectivity::capi;
 
 namespace {
 
-constexpr std::int32_t max_lists = 65536;
-
-SearchMode read_mode(std::int32_t mode) {
-    switch (mode) {
-        case CONN_GATHER: return SearchMode::gather;
-        case CONN_SCATTER: return SearchMode::scatter;
-        case CONN_GATHER_SCATTER: return SearchMode::gather_scatter;
-        default:
-            throw Error(Status::argument,
-                        "options->mode = " + std::to_string(mode) +
-                            ", must be CONN_GATHER, CONN_SCATTER or CONN_GATHER_SCATTER");
-    }
-}
-
-SearchMethod read_method(std::int32_t method) {
-    switch (method) {
-        case CONN_METHOD_AUTOMATIC: return SearchMethod::automatic;
-        case CONN_METHOD_BRUTE: return SearchMethod::brute;
-        case CONN_METHOD_CELLS: return SearchMethod::cells;
-        case CONN_METHOD_GROUPS: return SearchMethod::groups;
-        case CONN_METHOD_DEVICE: return SearchMethod::device;
-        default:
-            throw Error(Status::argument, "options->method = " + std::to_string(method) +
-                                              ", must be one of CONN_METHOD_*");
-    }
-}
-
-MapOptions read_options(const conn_map_options* given) {
-    conn_map_options o = CONN_MAP_OPTIONS_INIT;
-    if (given != nullptr) o = read_struct(given, o, "options");
-    MapOptions options;
-    options.rows = read_flag(o.rows, "options->rows");
-    options.pairs = read_flag(o.pairs, "options->pairs");
-    options.ghost_rows = read_flag(o.ghost_rows, "options->ghost_rows");
-    options.spatial_order = read_flag(o.spatial_order, "options->spatial_order");
-    options.mode = read_mode(o.mode);
-    options.method = read_method(o.method);
-    for (int d = 0; d < 3; ++d) {
-        options.domain.periodic[d] =
-            read_flag(o.periodic[d], "options->periodic[" + std::to_string(d) + "]");
-        options.domain.lo[d] = o.box_lo[d];
-        options.domain.hi[d] = o.box_hi[d];
-    }
-    if (o.reserved != 0) throw Error(Status::unsupported, "options->reserved is set, must be 0");
-    if (options.pairs && options.mode != SearchMode::gather_scatter)
-        throw Error(Status::argument,
-                    "options->pairs = 1 needs options->mode = CONN_GATHER_SCATTER");
-    if (o.budget_bytes < 0)
-        throw Error(Status::argument,
-                    "options->budget_bytes = " + std::to_string(o.budget_bytes) + ", must be >= 0");
-    options.budget.bytes = o.budget_bytes;
-    if (o.skin != 0 && !(o.skin >= 1e-100 && o.skin <= 1e100))
-        throw Error(Status::argument, "options->skin = " + std::to_string(o.skin) +
-                                          ", must be 0 or in [1e-100, 1e100]");
-    options.skin = o.skin;
-    return options;
-}
-
 const ConnectivityMap& map_of(const conn_map* handle) {
     return *Registry::instance().get<const conn_map>(handle, "map").map;
 }
 
-void check_capacity(std::int64_t capacity, std::int64_t needed) {
-    if (capacity < needed)
-        throw Error(Status::buffer, "capacity = " + std::to_string(capacity) +
-                                        ", must be at least " + std::to_string(needed));
+/// Whether the lists of the map were made with the options that the next rebuild will have.
+bool has_same_options(const conn_map& map) {
+    MapOptions next = options_of(map);
+    const ConstView<std::uint8_t> active = std::exchange(next.active, {}),
+                                  before = map.map->layout().active();
+    return map.map->options() == next && std::equal(active.data(), active.data() + active.size(),
+                                                    before.data(), before.data() + before.size());
 }
 
 }  // namespace
@@ -89,10 +36,10 @@ MapOptions options_of(const conn_map& map) {
 }
 
 std::vector<NodeList> read_lists(conn_nodes* const* lists, std::int32_t n_lists) {
-    if (n_lists < 1 || n_lists > max_lists)
+    if (n_lists < 1 || n_lists > max_handles)
         throw Error(n_lists < 1 ? Status::argument : Status::too_many,
                     "n_lists = " + std::to_string(n_lists) + ", must be in [1, " +
-                        std::to_string(max_lists) + "]");
+                        std::to_string(max_handles) + "]");
     if (lists == nullptr) throw Error(Status::null, "lists is NULL");
     std::vector<NodeList> ours;
     for (int k = 0; k < n_lists; ++k) {
@@ -108,12 +55,6 @@ std::vector<NodeList> read_lists(conn_nodes* const* lists, std::int32_t n_lists)
 }
 
 }  // namespace connectivity::capi
-
-conn_status conn_map_options_init(conn_map_options* options, size_t size) {
-    return guarded(__func__, [&] {
-        init_struct(options, size, conn_map_options CONN_MAP_OPTIONS_INIT, "options");
-    });
-}
 
 conn_status conn_map_create(conn_context* context, const conn_map_options* options,
                             conn_map** map) {
@@ -131,13 +72,6 @@ conn_status conn_map_destroy(conn_map** map) {
     return guarded(__func__, [&] { Registry::instance().destroy(map, "map"); });
 }
 
-conn_status conn_map_set_options(conn_map* map, const conn_map_options* options) {
-    return guarded_with_runtime(__func__, [&] {
-        auto& ours = Registry::instance().get<conn_map>(map, "map");
-        ours.options = read_options(options);
-    });
-}
-
 conn_status conn_map_rebuild(conn_map* map, conn_nodes* const* lists, int32_t n_lists) {
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_map>(map, "map");
@@ -152,7 +86,7 @@ conn_status conn_map_needs_rebuild(conn_map* map, conn_nodes* const* lists, int3
         auto& ours = Registry::instance().get<conn_map>(map, "map");
         if (needed == nullptr) throw Error(Status::null, "needed is NULL");
         const std::vector<NodeList> nodes = read_lists(lists, n_lists);
-        const bool same_options = ours.map->options() == options_of(ours);
+        const bool same_options = has_same_options(ours);
         double now = 0;
         *needed = !same_options || ours.map->needs_rebuild(nodes, &now) ? 1 : 0;
         if (!same_options) now = ours.map->drift(nodes);
@@ -170,15 +104,16 @@ conn_status conn_map_generation(const conn_map* map, uint64_t* generation) {
 
 conn_status conn_map_get_info(const conn_map* map, conn_map_info* info) {
     return guarded_with_runtime(__func__, [&] {
-        const ConnectivityMap& ours = map_of(map);
+        const auto& handle = Registry::instance().get<const conn_map>(map, "map");
+        const ConnectivityMap& ours = *handle.map;
         conn_map_info out = read_struct(info, conn_map_info CONN_MAP_INFO_INIT, "info");
         const bool is_built = ours.generation() > 0;
         out.generation = ours.generation();
         out.n_slots = ours.layout().n_slots();
         out.n_rows = ours.layout().n_rows();
         out.n_entries = is_built && ours.options().rows ? ours.rows().size() : 0;
-        out.n_pairs = is_built && ours.options().pairs ? ours.pairs().size() : 0;
-        out.bytes = ours.report().total_bytes();
+        out.n_pairs = is_built && ours.options().wants_pairs() ? ours.pairs().size() : 0;
+        out.bytes = ours.report().total_bytes() + handle.row_pairs.bytes();
         out.dim = ours.dim();
         out.n_lists = ours.layout().n_lists();
         out.n_report_entries = static_cast<std::int32_t>(ours.report().entries().size());
@@ -205,10 +140,6 @@ conn_status conn_map_spatial_order(const conn_map* map, int32_t list, int32_t* n
     return guarded_with_runtime(__func__, [&] {
         const ConnectivityMap& ours = map_of(map);
         if (count == nullptr) throw Error(Status::null, "count is NULL");
-        const View<Slot> order = ours.spatial_order(list);
-        *count = static_cast<std::int64_t>(order.size());
-        if (nodes == nullptr) return;
-        check_capacity(capacity, *count);
-        std::copy_n(order.data(), order.size(), nodes);
+        copy_out(ours.spatial_order(list), nodes, capacity, count);
     });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <cstring>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "guard.hpp"
 #include "objects.hpp"
@@ -10,17 +10,6 @@ using namespace connectivity;
 using namespace connectivity::capi;
 
 namespace {
-
-constexpr std::size_t max_name = 255;
-
-std::string read_name(const char* name) {
-    if (name == nullptr) throw Error(Status::null, "name is NULL");
-    const std::size_t length = strnlen(name, max_name + 1);
-    if (length == 0 || length > max_name)
-        throw Error(Status::argument, "name has " + std::string(length == 0 ? "no" : "too many") +
-                                          " bytes, must have 1 to " + std::to_string(max_name));
-    return {name, length};
-}
 
 /// The storage itself if it is large enough, else a larger one.
 View<double> with_room(const View<double>& storage, const char* label, Offset n) {
@@ -52,6 +41,40 @@ void set_nodes(conn_nodes& nodes, Offset n_internal, const Columns& x, const Col
     nodes.positions = positions;
     nodes.support = supports;
     nodes.list = std::move(list);
+}
+
+/// The same nodes on the same storage.
+NodeList without_ids(const NodeList& list) {
+    return list.has_tensor() ? NodeList::with_H(list.name(), list.dim(), list.n_internal(),
+                                                list.positions(), list.H(), list.kernel_extent())
+                             : NodeList::with_h(list.name(), list.dim(), list.n_internal(),
+                                                list.positions(), list.h(), list.kernel_extent());
+}
+
+/// One for each, or none at all. Throws Error{argument | null}.
+void check_names(const void* values, std::int64_t n, Offset n_nodes, const std::string& name,
+                 const std::string& count) {
+    check_count(values, n, max_slots, name, count);
+    if (n != 0 && n != n_nodes)
+        throw Error(Status::argument, count + " = " + std::to_string(n) + ", must be 0 or " +
+                                          std::to_string(n_nodes) + " as in the list");
+}
+
+/// Throws Error{argument} for the first ghost with an owner that is no internal node.
+void check_owners(const NodeList& list, const std::int32_t* owner, std::int64_t n_ghosts) {
+    for (std::int64_t g = 0; g < n_ghosts; ++g)
+        if (owner[g] < -1 || owner[g] >= list.n_internal())
+            throw Error(Status::argument, "owner[" + std::to_string(g) +
+                                              "] = " + std::to_string(owner[g]) +
+                                              ", must be -1 or an internal node, in [0, " +
+                                              std::to_string(list.n_internal()) + ")");
+}
+
+template <class T>
+View<T> copy_of(const char* label, const T* values, std::int64_t n) {
+    const View<T> copy = allocate<T>(label, n);
+    std::copy_n(values, n, copy.data());
+    return copy;
 }
 
 }  // namespace
@@ -93,6 +116,23 @@ conn_status conn_nodes_set_tensor(conn_nodes* nodes, int64_t n_internal,
         const Columns x = read_columns(positions, n_positions, ours.dim, "positions");
         set_nodes(ours, n_internal, x,
                   read_columns(tensor, n_tensor, n_symmetric(ours.dim), "tensor"), true);
+    });
+}
+
+conn_status conn_nodes_set_ids(conn_nodes* nodes, const int64_t* global_ids, int64_t n,
+                               const int32_t* owner, int64_t n_ghosts) {
+    return guarded_with_runtime(__func__, [&] {
+        auto& ours = Registry::instance().get<conn_nodes>(nodes, "nodes");
+        if (!ours.list)
+            throw Error(Status::argument,
+                        "nodes (\"" + ours.name + "\") was never set; give positions first");
+        NodeList list = without_ids(*ours.list);
+        check_names(global_ids, n, list.n(), "global_ids", "n");
+        check_names(owner, n_ghosts, list.n_ghosts(), "owner", "n_ghosts");
+        check_owners(list, owner, n_ghosts);
+        if (n > 0) list.set_global_ids(copy_of("nodes/global_ids", global_ids, n));
+        if (n_ghosts > 0) list.set_owners(copy_of("nodes/owners", owner, n_ghosts));
+        ours.list = std::move(list);
     });
 }
 

@@ -7,9 +7,12 @@
 #include <string>
 #include <vector>
 
+#include <connectivity/boundary/boundaries.hpp>
 #include <connectivity/map/connectivity_map.hpp>
+#include <connectivity/map/row_pairs.hpp>
 
 #include "connectivity.h"
+#include "pair_values.hpp"
 #include "registry.hpp"
 
 struct conn_context final : connectivity::capi::Handle {
@@ -38,12 +41,37 @@ struct conn_map final : connectivity::capi::Handle {
     std::int64_t context_budget = 0;
     connectivity::MapOptions options;                                 ///< of the next rebuild
     std::optional<connectivity::ConnectivityMap> map{std::in_place};  ///< none after Kokkos stopped
+    connectivity::RowPairs row_pairs;  ///< of the last sum along rows
 
     const char* kind() const noexcept override { return "a map"; }
-    void drop_views() noexcept override { map.reset(); }
+    void drop_views() noexcept override {
+        map.reset();
+        options.active = {};
+        row_pairs = {};
+    }
+};
+
+struct conn_pair_field final : connectivity::capi::Handle {
+    connectivity::capi::PairValues values;
+
+    explicit conn_pair_field(int n_components) : values(n_components) {}
+    const char* kind() const noexcept override { return "a pair field"; }
+    void drop_views() noexcept override { values.clear(); }
+};
+
+struct conn_boundaries final : connectivity::capi::Handle {
+    std::optional<connectivity::Boundaries> boundaries;  ///< none after Kokkos stopped
+
+    explicit conn_boundaries(int dim) : boundaries(dim) {}
+    const char* kind() const noexcept override { return "boundaries"; }
+    void drop_views() noexcept override { boundaries.reset(); }
 };
 
 namespace connectivity::capi {
+
+/// Checked and copied; NULL means the defaults. Throws Error{argument | null | struct_size |
+/// unsupported | memory}.
+MapOptions read_options(const conn_map_options* given);
 
 /// Options of the next rebuild, the context's budget where the map has none of its own.
 MapOptions options_of(const conn_map& map);
@@ -67,6 +95,13 @@ struct PairsPin final : Handle {
 
     const char* kind() const noexcept override { return "the owner of a pairs view"; }
     void drop_views() noexcept override { pairs = {}; }
+};
+
+struct IntersectionPin final : Handle {
+    IntersectionView<> nodes;
+
+    const char* kind() const noexcept override { return "the owner of an intersection view"; }
+    void drop_views() noexcept override { nodes = {}; }
 };
 
 }  // namespace connectivity::capi

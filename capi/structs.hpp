@@ -34,6 +34,12 @@ template <>
 constexpr std::size_t first_size<conn_pairs_view> = offsetof(conn_pairs_view, owner) +
                                                     sizeof(void*);
 template <>
+constexpr std::size_t first_size<conn_intersection_view> = offsetof(conn_intersection_view, owner) +
+                                                           sizeof(void*);
+template <>
+constexpr std::size_t first_size<conn_boundary_nodes> = offsetof(conn_boundary_nodes, global_id) +
+                                                        sizeof(void*);
+template <>
 constexpr std::size_t first_size<conn_report_entry> = offsetof(conn_report_entry, reused) +
                                                       sizeof(std::int32_t);
 

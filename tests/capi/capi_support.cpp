@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include <support/random.hpp>
 
@@ -96,22 +95,35 @@ Lists brute_force(int dim, const std::vector<NodeSet>& sets, int mode) {
     return lists;
 }
 
+std::vector<std::vector<std::int32_t>> rows_of(const conn_rows_view& view) {
+    std::vector<std::vector<std::int32_t>> rows;
+    for (std::int64_t r = 0; r < view.n_rows; ++r)
+        rows.emplace_back(view.slots + view.offsets[r * view.n_lists],
+                          view.slots + view.offsets[(r + 1) * view.n_lists]);
+    return rows;
+}
+
+std::vector<std::pair<std::int32_t, std::int32_t>> pairs_of(const conn_pairs_view& view) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+    for (std::int64_t r = 0; r < view.n_slots; ++r)
+        for (std::int64_t k = view.offsets[r]; k < view.offsets[r + 1]; ++k)
+            pairs.emplace_back(view.slots == nullptr ? static_cast<std::int32_t>(r) : view.slots[r],
+                               view.j[k]);
+    EXPECT_EQ(static_cast<std::int64_t>(pairs.size()), view.n_pairs);
+    return pairs;
+}
+
 Lists read_lists(conn_map* map) {
     Lists lists;
     conn_rows_view rows = CONN_ROWS_VIEW_INIT;
     EXPECT_TRUE(ok(conn_map_rows_acquire(map, CONN_SPACE_HOST, &rows)));
-    for (std::int64_t r = 0; r < rows.n_rows; ++r)
-        lists.rows.emplace_back(rows.slots + rows.offsets[r * rows.n_lists],
-                                rows.slots + rows.offsets[(r + 1) * rows.n_lists]);
+    lists.rows = rows_of(rows);
     EXPECT_TRUE(ok(conn_map_rows_release(&rows)));
     conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
     const conn_status status = conn_map_pairs_acquire(map, CONN_SPACE_HOST, 0, &pairs);
     if (status == CONN_E_NOT_BUILT) return lists;
     EXPECT_TRUE(ok(status));
-    for (std::int64_t i = 0; i < pairs.n_slots; ++i)
-        for (std::int64_t k = pairs.offsets[i]; k < pairs.offsets[i + 1]; ++k)
-            lists.pairs.emplace_back(static_cast<std::int32_t>(i), pairs.j[k]);
-    EXPECT_EQ(static_cast<std::int64_t>(lists.pairs.size()), pairs.n_pairs);
+    lists.pairs = pairs_of(pairs);
     EXPECT_TRUE(ok(conn_map_pairs_release(&pairs)));
     return lists;
 }
@@ -175,17 +187,25 @@ std::uint64_t Map::generation() const {
     return generation;
 }
 
-Lists lists_of(const Context& context, int dim, const std::vector<NodeSet>& sets,
-               const conn_map_options& options) {
-    std::vector<std::unique_ptr<Nodes>> nodes;
-    std::vector<conn_nodes*> handles;
+Built::Built(const Context& context, int dimension, const std::vector<NodeSet>& sets,
+             const conn_map_options& options)
+    : dim(dimension), map(context, options) {
     for (const NodeSet& set : sets) {
         nodes.push_back(std::make_unique<Nodes>(context, dim, set));
-        handles.push_back(nodes.back()->handle);
+        lists.push_back(nodes.back()->handle);
     }
-    const Map map(context, options);
-    EXPECT_TRUE(ok(map.rebuild(handles)));
-    return read_lists(map.handle);
+    EXPECT_TRUE(ok(rebuild()));
+}
+
+conn_status Built::rebuild(const conn_map_options& options) const {
+    EXPECT_TRUE(ok(conn_map_set_options(map.handle, &options)));
+    return rebuild();
+}
+
+Lists lists_of(const Context& context, int dim, const std::vector<NodeSet>& sets,
+               const conn_map_options& options) {
+    const Built built(context, dim, sets, options);
+    return read_lists(built.map.handle);
 }
 
 }  // namespace connectivity::test

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,10 @@ struct Lists {
 /// Every node against every other, from the definition; rows of internal nodes, open box.
 Lists brute_force(int dim, const std::vector<NodeSet>& sets, int mode = CONN_GATHER_SCATTER);
 
+/// What views hold; pairs name their first node, also in key order.
+std::vector<std::vector<std::int32_t>> rows_of(const conn_rows_view& view);
+std::vector<std::pair<std::int32_t, std::int32_t>> pairs_of(const conn_pairs_view& view);
+
 /// What a map holds now. Fails the test if it cannot be read.
 Lists read_lists(conn_map* map);
 
@@ -47,6 +52,23 @@ Lists read_lists(conn_map* map);
 /// The status that was expected, with these words in the text of the last error.
 ::testing::AssertionResult fails(conn_status status, conn_status expected,
                                  const std::vector<std::string>& words = {});
+
+/// A result by the two-call pattern, call(buffer, capacity, count); a buffer that is too small by
+/// one is refused and told the size.
+template <class T, class Call>
+std::vector<T> two_calls(const Call& call) {
+    std::int64_t count = -1, again = -1;
+    EXPECT_TRUE(ok(call(static_cast<T*>(nullptr), 0, &count)));
+    std::vector<T> values(static_cast<std::size_t>(count) + 1);
+    if (count > 0) {
+        EXPECT_TRUE(
+            fails(call(values.data(), count - 1, &again), CONN_E_BUFFER, {std::to_string(count)}));
+        EXPECT_EQ(again, count);
+    }
+    EXPECT_TRUE(ok(call(values.data(), count, &again)));
+    values.pop_back();
+    return values;
+}
 
 /// Owners of handles, for tests that are not about their lives.
 struct Context {
@@ -78,6 +100,19 @@ struct Map {
 
     conn_status rebuild(const std::vector<conn_nodes*>& lists) const;
     std::uint64_t generation() const;
+};
+
+/// Node lists of the sets and a map that was rebuilt from them.
+struct Built {
+    int dim;
+    std::vector<std::unique_ptr<Nodes>> nodes;
+    std::vector<conn_nodes*> lists;
+    Map map;
+    Built(const Context& context, int dimension, const std::vector<NodeSet>& sets,
+          const conn_map_options& options = CONN_MAP_OPTIONS_INIT);
+
+    conn_status rebuild() const { return map.rebuild(lists); }
+    conn_status rebuild(const conn_map_options& options) const;
 };
 
 /// Rebuilds a map over the sets and reads it.

@@ -3,39 +3,21 @@
 // NULL, live, dead or point to enough memory; everything else is random bytes.
 
 #include <algorithm>
-#include <cstring>
-#include <support/random.hpp>
 
-#include "capi_support.hpp"
+#include "fuzz_fields.hpp"
 
 namespace connectivity::test {
 namespace {
 
-constexpr int room = 64;  // doubles behind every data pointer
-
-class Fuzz {
+class Fuzz : public FuzzFields {
 public:
-    explicit Fuzz(std::uint64_t seed) : random_(seed) {
-        for (double& value : memory_) value = random_.uniform();
-        nodes_.handle = nullptr;
-        for (int k = 0; k < 4; ++k)
-            EXPECT_TRUE(ok(conn_nodes_create(context_.handle, "x", 1 + k % 3, 2,
-                                             &lists_[static_cast<std::size_t>(k)])));
-        dead_nodes_ = lists_[3];
-        conn_nodes_destroy(&lists_[3]);
-        EXPECT_TRUE(ok(conn_map_create(context_.handle, nullptr, &dead_map_)));
-        conn_map* copy = dead_map_;
-        conn_map_destroy(&copy);
-    }
-    ~Fuzz() {
-        for (conn_nodes*& list : lists_) conn_nodes_destroy(&list);
-    }
-    Fuzz(const Fuzz&) = delete;
-    Fuzz& operator=(const Fuzz&) = delete;
+    using FuzzFields::FuzzFields;
 
-    int n_built = 0, n_views = 0, n_traversed = 0;  ///< calls that got through
+    /// calls that got through
+    int n_built = 0, n_views = 0, n_traversed = 0;
 
     void call() {
+        if (random_.chance(0.4)) return call_fields();
         switch (random_.below(19)) {
             case 0: return set_h();
             case 1: return set_tensor();
@@ -63,69 +45,6 @@ public:
     }
 
 private:
-    std::int32_t number() {
-        const int edge[] = {-1, 0, 1, 2, 3, 4, 6, 100, -2147483647, 2147483647};
-        return random_.chance(0.9) ? edge[random_.below(random_.chance(0.5) ? 4 : 10)]
-                                   : static_cast<int>(random_.bits());
-    }
-    std::int64_t long_number() {
-        return random_.chance(0.8) ? number() : static_cast<std::int64_t>(random_.bits());
-    }
-    /// Strides and extents inside the memory or so large that they must be refused before a read.
-    conn_array array() {
-        conn_array a = conn_array_vector(memory_.data(), random_.below(5));
-        if (random_.chance(0.7))
-            a = conn_array_matrix(memory_.data(), random_.below(5), 1 + random_.below(6));
-        if (random_.chance(0.1)) a.data = nullptr;
-        if (random_.chance(0.1))
-            a.data = reinterpret_cast<char*>(memory_.data()) + random_.below(8);
-        if (random_.chance(0.1)) a.space = number();
-        if (random_.chance(0.1)) a.dtype = number();
-        if (random_.chance(0.1)) a.ndim = number();
-        if (random_.chance(0.1)) a.extent[0] = -1 - static_cast<std::int64_t>(random_.bits() >> 2);
-        if (random_.chance(0.1))
-            a.extent[0] = (std::int64_t{1} << 31) + static_cast<std::int64_t>(random_.bits() >> 2);
-        if (random_.chance(0.1)) a.extent[1] = long_number();
-        if (random_.chance(0.1)) a.stride[0] = random_.below(6);
-        return a;
-    }
-    conn_nodes* nodes() {
-        const int k = random_.below(10);
-        return k < 4    ? lists_[k]
-               : k == 4 ? dead_nodes_
-               : k == 5 ? reinterpret_cast<conn_nodes*>(map_.handle)
-                        : lists_[0];
-    }
-    conn_map* map() {
-        const int k = random_.below(10);
-        return k == 0   ? nullptr
-               : k == 1 ? dead_map_
-               : k == 2 ? reinterpret_cast<conn_map*>(lists_[0])
-                        : map_.handle;
-    }
-    conn_context* context() { return random_.chance(0.9) ? context_.handle : nullptr; }
-
-    void spoil(void* data, std::size_t size) {
-        auto* bytes = static_cast<unsigned char*>(data);
-        for (int k = random_.below(4); k > 0; --k)
-            bytes[random_.below(static_cast<int>(size))] =
-                static_cast<unsigned char>(random_.bits());
-    }
-    /// A struct in more memory than any size the library accepts; spoilt or pure noise.
-    template <class T, class Call>
-    void with_struct(const Call& call) {
-        alignas(T) unsigned char bytes[8192] = {};
-        const bool is_noise = random_.chance(0.3);
-        if (is_noise)
-            for (unsigned char& byte : bytes) byte = static_cast<unsigned char>(random_.bits());
-        std::size_t size = sizeof(T);
-        if (random_.chance(0.2)) size = static_cast<std::size_t>(long_number());
-        if (random_.chance(0.2)) size += static_cast<std::size_t>(random_.below(64));
-        std::memcpy(bytes, &size, sizeof size);
-        if (random_.chance(0.5)) spoil(bytes + sizeof size, sizeof(T) - sizeof size);
-        call(reinterpret_cast<T*>(random_.chance(0.95) ? bytes : nullptr));
-    }
-
     /// Good nodes for one of the live lists, so that the calls behind have something to do.
     void set_well() {
         const int k = random_.below(3), n = random_.below(8);
@@ -184,9 +103,13 @@ private:
                 const std::size_t size = s->struct_size;
                 *s = CONN_MAP_OPTIONS_INIT;
                 s->skin = random_.pick({0.0, 0.0, 1e-3, 1e100});
+                s->overlap = random_.chance(0.3) ? 1 : 0;
+                s->intersection = random_.chance(0.3) ? random_.below(4) : 0;
+                s->order = random_.chance(0.3) ? 1 : 0;
                 s->struct_size = size;
                 if (random_.chance(0.5)) spoil(&s->rows, sizeof *s - sizeof size);
             }
+            point_well(s);
             conn_map_set_options(map(), s);
         });
     }
@@ -195,6 +118,14 @@ private:
             if (conn_map_rows_acquire(map(), number(), s) != CONN_OK) return;
             EXPECT_TRUE(ok(conn_map_rows_release(s)));
             ++n_views;
+        });
+        with_struct<conn_rows_view>([&](auto* s) {
+            if (conn_map_overlap_acquire(map(), number(), s) != CONN_OK) return;
+            EXPECT_TRUE(ok(conn_map_rows_release(s)));
+        });
+        with_struct<conn_intersection_view>([&](auto* s) {
+            if (conn_map_intersection_acquire(map(), number(), s) != CONN_OK) return;
+            EXPECT_TRUE(ok(conn_map_intersection_release(s)));
         });
     }
     void acquire_pairs() {
@@ -207,6 +138,7 @@ private:
     void release_garbage() {
         with_struct<conn_rows_view>([](auto* s) { conn_map_rows_release(s); });
         with_struct<conn_pairs_view>([](auto* s) { conn_map_pairs_release(s); });
+        with_struct<conn_intersection_view>([](auto* s) { conn_map_intersection_release(s); });
     }
     void report() {
         const char* name = nullptr;
@@ -223,6 +155,15 @@ private:
                          &count);
         conn_map_spatial_order(map(), number(), nodes_out, random_.below(room), &count);
         conn_nodes_size(nodes(), random_.chance(0.5) ? nullptr : &count, &count);
+    }
+    /// Arrays that options name are there, with as many values as they say.
+    void point_well(conn_map_options* s) {
+        static const std::uint8_t flags[room] = {1, 1, 0, 1, 1, 0, 0, 1};
+        if (s == nullptr) return;
+        s->active = random_.chance(0.2) ? flags : nullptr;
+        s->n_active = random_.chance(0.2) ? random_.below(room) : 0;
+        s->interactions = random_.chance(0.2) ? flags : nullptr;
+        s->n_interactions = random_.chance(0.2) ? random_.below(room) : 0;
     }
     void create_nodes() {
         conn_nodes* made = nullptr;
@@ -241,6 +182,7 @@ private:
     void create_map() {
         with_struct<conn_map_options>([&](auto* s) {
             conn_map* made = nullptr;
+            point_well(s);
             conn_map_create(context(), s, random_.chance(0.9) ? &made : nullptr);
             EXPECT_TRUE(ok(conn_map_destroy(&made)));
         });
@@ -249,29 +191,26 @@ private:
         with_struct<conn_map_options>(
             [&](auto* s) { conn_map_options_init(s, static_cast<std::size_t>(long_number())); });
     }
-
-    Random random_;
-    std::array<double, room> memory_{};
-    Context context_;
-    Nodes nodes_{context_, 3};
-    Map map_{context_};
-    std::array<conn_nodes*, 4> lists_{};
-    conn_nodes* dead_nodes_ = nullptr;
-    conn_map* dead_map_ = nullptr;
 };
 
 TEST(CapiFuzz, garbage_never_breaks_the_library) {
-    int n_built = 0, n_views = 0, n_traversed = 0;
+    int n_built = 0, n_views = 0, n_traversed = 0, n_patched = 0, n_summed = 0, n_bounded = 0;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         Fuzz fuzz(seed);
-        for (int k = 0; k < 2000; ++k) fuzz.call();
+        for (int k = 0; k < 4000; ++k) fuzz.call();
         n_built += fuzz.n_built;
         n_views += fuzz.n_views;
         n_traversed += fuzz.n_traversed;
+        n_patched += fuzz.n_patched;
+        n_summed += fuzz.n_summed;
+        n_bounded += fuzz.n_bounded;
     }
     EXPECT_GT(n_built, 50) << "too much of the garbage was refused at the door";
     EXPECT_GT(n_views, 50);
     EXPECT_GT(n_traversed, 50);
+    EXPECT_GT(n_patched, 20);
+    EXPECT_GT(n_summed, 20);
+    EXPECT_GT(n_bounded, 20);
     const NodeSet set = random_nodes(3, 100, 1);
     EXPECT_EQ(lists_of(Context(), 3, {set}), brute_force(3, {set}));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Handles and structs: dead, foreign and NULL ones are errors, older and newer hosts are served.
 
+#include <cstddef>
 #include <cstring>
 #include <thread>
 
@@ -129,7 +130,9 @@ TEST(CapiStructs, sizes_are_those_of_the_header) {
     EXPECT_EQ(conn_abi_sizeof(CONN_STRUCT_ROWS_VIEW), sizeof(conn_rows_view));
     EXPECT_EQ(conn_abi_sizeof(CONN_STRUCT_PAIRS_VIEW), sizeof(conn_pairs_view));
     EXPECT_EQ(conn_abi_sizeof(CONN_STRUCT_REPORT_ENTRY), sizeof(conn_report_entry));
-    for (const int unknown : {-1, 0, 8, 1 << 30}) EXPECT_EQ(conn_abi_sizeof(unknown), 0);
+    EXPECT_EQ(conn_abi_sizeof(CONN_STRUCT_INTERSECTION_VIEW), sizeof(conn_intersection_view));
+    EXPECT_EQ(conn_abi_sizeof(CONN_STRUCT_BOUNDARY_NODES), sizeof(conn_boundary_nodes));
+    for (const int unknown : {-1, 0, 10, 1 << 30}) EXPECT_EQ(conn_abi_sizeof(unknown), 0);
 }
 
 /// A struct of a later version: ours, and more behind it.
@@ -150,6 +153,40 @@ TEST(CapiStructs, a_longer_struct_is_served_while_its_tail_is_zero) {
     EXPECT_TRUE(fails(conn_map_create(context.handle, &options.ours, &map), CONN_E_UNSUPPORTED,
                       {"byte " + std::to_string(sizeof options - 1)}));
     EXPECT_EQ(map, nullptr);
+}
+
+TEST(CapiStructs, a_host_of_the_first_pairs_view_gets_no_more_than_it_has_room_for) {
+    const Context context;
+    conn_map_options options = CONN_MAP_OPTIONS_INIT;
+    options.order = CONN_ORDER_KEY;
+    const Built built(context, 3, {random_nodes(3, 30, 1)}, options);
+    conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
+    pairs.struct_size = offsetof(conn_pairs_view, slots);
+    ASSERT_TRUE(ok(conn_map_pairs_acquire(built.map.handle, CONN_SPACE_HOST, 0, &pairs)));
+    EXPECT_EQ(pairs.struct_size, offsetof(conn_pairs_view, slots));
+    EXPECT_GT(pairs.n_pairs, 0);
+    EXPECT_EQ(pairs.slots, nullptr);
+    EXPECT_EQ(pairs.ranks, nullptr);
+    EXPECT_TRUE(ok(conn_map_pairs_release(&pairs)));
+}
+
+TEST(CapiStructs, hosts_of_older_map_options_get_the_defaults_of_what_they_do_not_know) {
+    const Context context;
+    const std::uint8_t none[1] = {7};
+    for (const std::size_t size :
+         {offsetof(conn_map_options, skin), offsetof(conn_map_options, overlap),
+          offsetof(conn_map_options, active), offsetof(conn_map_options, interactions)}) {
+        conn_map_options options = CONN_MAP_OPTIONS_INIT;
+        if (size <= offsetof(conn_map_options, overlap)) options.overlap = options.order = -5;
+        if (size <= offsetof(conn_map_options, active)) options.active = none;
+        options.interactions = none;
+        options.struct_size = size;
+        conn_map* map = nullptr;
+        EXPECT_TRUE(ok(conn_map_create(context.handle, &options, &map)));
+        EXPECT_TRUE(ok(conn_map_destroy(&map)));
+        options.struct_size = sizeof options;
+        EXPECT_EQ(conn_map_create(context.handle, &options, &map), CONN_E_ARGUMENT);
+    }
 }
 
 TEST(CapiStructs, views_of_a_longer_struct_keep_their_size_and_tail) {
@@ -180,6 +217,10 @@ TEST(CapiStructs, a_size_that_no_host_can_have_is_refused) {
         conn_rows_view r = CONN_ROWS_VIEW_INIT;
         conn_pairs_view p = CONN_PAIRS_VIEW_INIT;
         conn_report_entry e = CONN_REPORT_ENTRY_INIT;
+        conn_intersection_view x = CONN_INTERSECTION_VIEW_INIT;
+        x.struct_size = size;
+        EXPECT_TRUE(fails(conn_map_intersection_acquire(map.handle, 0, &x), CONN_E_STRUCT_SIZE));
+        EXPECT_TRUE(fails(conn_map_intersection_release(&x), CONN_E_STRUCT_SIZE));
         c.struct_size = o.struct_size = i.struct_size = r.struct_size = p.struct_size =
             e.struct_size = size;
         conn_context* made = nullptr;
@@ -187,6 +228,7 @@ TEST(CapiStructs, a_size_that_no_host_can_have_is_refused) {
         EXPECT_TRUE(fails(conn_map_set_options(map.handle, &o), CONN_E_STRUCT_SIZE));
         EXPECT_TRUE(fails(conn_map_get_info(map.handle, &i), CONN_E_STRUCT_SIZE));
         EXPECT_TRUE(fails(conn_map_rows_acquire(map.handle, 0, &r), CONN_E_STRUCT_SIZE));
+        EXPECT_TRUE(fails(conn_map_overlap_acquire(map.handle, 0, &r), CONN_E_STRUCT_SIZE));
         EXPECT_TRUE(fails(conn_map_pairs_acquire(map.handle, 0, 0, &p), CONN_E_STRUCT_SIZE));
         EXPECT_TRUE(fails(conn_map_report_entry(map.handle, 0, &e), CONN_E_STRUCT_SIZE));
         EXPECT_TRUE(fails(conn_map_rows_release(&r), CONN_E_STRUCT_SIZE));

@@ -10,12 +10,18 @@ int main(void) {
     conn_rows_view rows = CONN_ROWS_VIEW_INIT;
     conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
     conn_report_entry entry = CONN_REPORT_ENTRY_INIT;
+    conn_intersection_view common = CONN_INTERSECTION_VIEW_INIT;
+    conn_boundary_nodes ghosts = CONN_BOUNDARY_NODES_INIT;
     const double x[4] = {0, 1, 2, 3};
     const conn_array vector = conn_array_vector(x, 4), matrix = conn_array_matrix(x, 2, 2);
     const int ok = context.device_id == -1 && map.mode == CONN_GATHER_SCATTER && map.rows == 1 &&
                    map.pairs == 1 && info.struct_size == sizeof info && rows.owner == NULL &&
                    pairs.owner == NULL && entry.struct_size == sizeof entry &&
                    vector.extent[0] == 4 && matrix.stride[0] == 2 && matrix.stride[1] == 1 &&
+                   common.struct_size == sizeof common && common.owner == NULL &&
+                   ghosts.struct_size == sizeof ghosts && ghosts.global_id == NULL &&
+                   map.order == CONN_ORDER_SLOT && map.active == NULL && map.n_active == 0 &&
+                   map.interactions == NULL && pairs.ranks == NULL &&
                    conn_version() == CONN_VERSION && CONN_OK == 0;
     return ok ? 0 : 1;
 }

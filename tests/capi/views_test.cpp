@@ -18,22 +18,6 @@ protected:
         return brute_force(3, {set});
     }
 
-    static std::vector<std::pair<std::int32_t, std::int32_t>> read(const conn_pairs_view& view) {
-        std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-        for (std::int64_t i = 0; i < view.n_slots; ++i)
-            for (std::int64_t k = view.offsets[i]; k < view.offsets[i + 1]; ++k)
-                pairs.emplace_back(static_cast<std::int32_t>(i), view.j[k]);
-        return pairs;
-    }
-
-    static std::vector<std::vector<std::int32_t>> read(const conn_rows_view& view) {
-        std::vector<std::vector<std::int32_t>> rows;
-        for (std::int64_t r = 0; r < view.n_rows; ++r)
-            rows.emplace_back(view.slots + view.offsets[r * view.n_lists],
-                              view.slots + view.offsets[(r + 1) * view.n_lists]);
-        return rows;
-    }
-
     Context context;
     Nodes nodes{context, 3};
     Map map{context};
@@ -48,14 +32,14 @@ TEST_F(CapiViews, views_outlive_rebuilds_and_the_map_unchanged) {
     for (std::uint64_t seed = 2; seed < 6; ++seed) {
         const Lists next = rebuild(seed, 200 + 100 * static_cast<int>(seed % 3));
         EXPECT_EQ(read_lists(map.handle), next);
-        EXPECT_EQ(read(rows), first.rows);
-        EXPECT_EQ(read(pairs), first.pairs);
+        EXPECT_EQ(rows_of(rows), first.rows);
+        EXPECT_EQ(pairs_of(pairs), first.pairs);
     }
     EXPECT_EQ(rows.generation, 1u);
     EXPECT_EQ(map.generation(), 5u);
     ASSERT_TRUE(ok(conn_map_destroy(&map.handle)));
-    EXPECT_EQ(read(rows), first.rows);
-    EXPECT_EQ(read(pairs), first.pairs);
+    EXPECT_EQ(rows_of(rows), first.rows);
+    EXPECT_EQ(pairs_of(pairs), first.pairs);
     EXPECT_EQ(rows.list_offset[1], 300);
     EXPECT_EQ(pairs.list_offset[1], 300);
     EXPECT_EQ(rows.row_offset[1], 300);
@@ -112,7 +96,7 @@ TEST_F(CapiViews, what_was_not_built_cannot_be_acquired) {
     const Lists lists = rebuild(5);
     EXPECT_TRUE(fails(conn_map_rows_acquire(map.handle, CONN_SPACE_HOST, &rows), CONN_E_NOT_BUILT));
     ASSERT_TRUE(ok(conn_map_pairs_acquire(map.handle, CONN_SPACE_HOST, 0, &pairs)));
-    EXPECT_EQ(read(pairs), lists.pairs);
+    EXPECT_EQ(pairs_of(pairs), lists.pairs);
     EXPECT_TRUE(ok(conn_map_pairs_release(&pairs)));
     options.rows = 1;
     options.pairs = 0;

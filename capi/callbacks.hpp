@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// Functions of the host as the C++ side calls them. While one runs, its thread must not call the
+/// library; what it says by conn_set_error is dropped.
+
+#include "connectivity.h"
+#include "guard.hpp"
+
+namespace connectivity::capi {
+
+template <class F, class... Arguments>
+auto ask_host(F function, Arguments... arguments) {
+    const CallbackScope scope;
+    const auto answer = function(arguments...);
+    clear_error();
+    return answer;
+}
+
+struct HostPredicate {
+    conn_pair_predicate predicate;
+    void* user_data;
+
+    bool operator()(std::int32_t i, std::int32_t j) const {
+        return ask_host(predicate, user_data, i, j) != 0;
+    }
+};
+
+struct HostFunction {
+    conn_pair_function function;
+    void* user_data;
+
+    double operator()(std::int32_t i, std::int32_t j) const {
+        return ask_host(function, user_data, i, j);
+    }
+};
+
+}  // namespace connectivity::capi

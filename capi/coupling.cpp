@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "arguments.hpp"
+#include "callbacks.hpp"
+#include "guard.hpp"
+#include "objects.hpp"
+
+using namespace connectivity;
+using namespace connectivity::capi;
+
+namespace {
+NodePairList& pairs_of(conn_map* map) {
+    return Registry::instance().get<conn_map>(map, "map").map->pairs();
+}
+}  // namespace
+
+conn_status conn_map_set_coupling(conn_map* map, const double* values, int64_t n_pairs) {
+    return guarded_with_runtime(__func__, [&] {
+        NodePairList& pairs = pairs_of(map);
+        if (values == nullptr && n_pairs == 0) return pairs.clear_coupling();
+        required(values, "values");
+        if (n_pairs != pairs.size())
+            throw Error(Status::argument, "n_pairs = " + std::to_string(n_pairs) + ", must be " +
+                                              std::to_string(pairs.size()) +
+                                              " as in the pair list");
+        const auto numbers = pairs.view();
+        pairs.set_coupling([&](Slot i, Slot j) { return values[numbers.find(i, j)]; });
+    });
+}
+
+conn_status conn_map_set_coupling_function(conn_map* map, conn_pair_function function,
+                                           void* user_data) {
+    return guarded_with_runtime(__func__, [&] {
+        NodePairList& pairs = pairs_of(map);
+        required(function, "function");
+        pairs.set_coupling(HostFunction{function, user_data});
+    });
+}
