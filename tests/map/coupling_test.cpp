@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <connectivity/base/runtime.hpp>
+
 #include <support/brute_force.hpp>
 #include <support/expect_error.hpp>
 #include <support/random_case.hpp>
@@ -172,6 +174,7 @@ TEST(Coupling, no_pairs_are_coupled_without_error) {
 }
 
 TEST(Coupling, a_patch_carries_the_values_of_surviving_pairs) {
+    start_runtime();
     const std::vector<Offset> offsets = {0, 2, 3, 3};
     const std::vector<Slot> j = {1, 2, 2};
     const ConstView<Offset> all(offsets.data(), offsets.size());
