@@ -56,7 +56,8 @@ enum {
  * their internal nodes and kind of support must be those of the last update. Fails as
  * conn_map_rebuild does; with CONN_E_ARGUMENT for another dimension, a node outside the domain, or
  * the option active, which cannot know the ghosts; with CONN_E_HALF_BOX for a support that reaches
- * from plane to facing plane. */
+ * from plane to facing plane. Ghosts and map are then as before; only if culling alone lacks
+ * memory (CONN_E_MEMORY) they are those of this call, none culled. */
 CONN_API conn_status conn_boundaries_update(conn_boundaries* boundaries, conn_map* map,
                                             conn_nodes* const* lists, int32_t n_lists, int32_t how);
 

@@ -84,9 +84,9 @@ CONN_API conn_status conn_map_destroy(conn_map** map);
  * CONN_E_ARGUMENT for active together with overlap or intersection, which need all nodes, and for
  * these and pairs with another mode than CONN_GATHER_SCATTER. */
 CONN_API conn_status conn_map_set_options(conn_map* map, const conn_map_options* options);
-/** Whether a pair of slots, slot_i < slot_j, is left out: 0 keeps it. Called from several threads at
- * once and more than once for a pair: the answer must depend on the two slots alone. What it tells
- * conn_set_error is dropped. */
+/** Whether a pair of slots, slot_i < slot_j, is left out: 0 keeps it. Called from several threads
+ * at once and more than once for a pair: the answer must depend on the two slots alone. What it
+ * tells conn_set_error is dropped. */
 typedef int32_t (*conn_pair_predicate)(void* user_data, int32_t slot_i, int32_t slot_j);
 /** Pairs that the next rebuilds leave out of everything; predicate NULL: none. Predicate and
  * user_data are kept until others are set, conn_map_set_options does not change them. */

@@ -25,9 +25,12 @@ enum { side = 12, n = side * side, n_pairs = 2 * side * (side - 1) };
 typedef struct host {
     conn_context* context;
     conn_nodes* nodes;
-    conn_map* map;
+    conn_map *map, *with_ghosts;
+    conn_boundaries* boundaries;
+    conn_pair_field* field;
     conn_rows_view rows;
     conn_pairs_view pairs;
+    conn_intersection_view common;
 } host;
 
 /* A square lattice of spacing 1 with supports of 1.2. */
@@ -46,25 +49,64 @@ static conn_status rebuild(host* h) {
     return conn_map_rebuild(h->map, lists, 1);
 }
 
+/* Ghosts beyond a wall, common neighbours, and a field whose sum wants the pair of every row entry.
+ */
+static void start_ghosts(host* h) {
+    conn_nodes* lists[] = {h->nodes};
+    conn_map_options options = CONN_MAP_OPTIONS_INIT;
+    const double wall[] = {-0.5, 0, 1, 0};
+    double sums[2 * n];
+    options.intersection = CONN_INTERSECTION_ALL;
+    REQUIRE(conn_map_create(h->context, &options, &h->with_ghosts) == CONN_OK);
+    REQUIRE(conn_boundaries_create(h->context, 2, &h->boundaries) == CONN_OK);
+    REQUIRE(conn_boundaries_add(h->boundaries, CONN_BOUNDARY_REFLECTING, "wall", wall, 1) ==
+            CONN_OK);
+    REQUIRE(conn_boundaries_update(h->boundaries, h->with_ghosts, lists, 1, CONN_GHOSTS_KEEP) ==
+            CONN_OK);
+    REQUIRE(conn_map_intersection_acquire(h->with_ghosts, CONN_SPACE_HOST, &h->common) == CONN_OK);
+    REQUIRE(h->common.n_pairs > n_pairs);
+    REQUIRE(conn_pair_field_create(h->with_ghosts, 1, &h->field) == CONN_OK);
+    REQUIRE(conn_pair_field_sum(h->field, h->with_ghosts, CONN_SYMMETRIC, CONN_SUM_DETERMINISTIC,
+                                sums, 2 * n) == CONN_OK);
+}
+
 static host start(int n_threads) {
-    host h = {NULL, NULL, NULL, CONN_ROWS_VIEW_INIT, CONN_PAIRS_VIEW_INIT};
+    host h = {NULL,
+              NULL,
+              NULL,
+              NULL,
+              NULL,
+              NULL,
+              CONN_ROWS_VIEW_INIT,
+              CONN_PAIRS_VIEW_INIT,
+              CONN_INTERSECTION_VIEW_INIT};
+    uint8_t active[n];
+    conn_map_options map_options = CONN_MAP_OPTIONS_INIT;
+    memset(active, 1, sizeof active);
+    map_options.active = active;
+    map_options.n_active = n;
     conn_context_options options = CONN_CONTEXT_OPTIONS_INIT;
     options.n_threads = n_threads;
     REQUIRE(conn_context_create(&options, &h.context) == CONN_OK);
     REQUIRE(conn_nodes_create(h.context, "lattice", 2, 2.0, &h.nodes) == CONN_OK);
-    REQUIRE(conn_map_create(h.context, NULL, &h.map) == CONN_OK);
+    REQUIRE(conn_map_create(h.context, &map_options, &h.map) == CONN_OK);
     REQUIRE(set_nodes(&h) == CONN_OK);
     REQUIRE(rebuild(&h) == CONN_OK);
     REQUIRE(conn_map_rows_acquire(h.map, CONN_SPACE_HOST, &h.rows) == CONN_OK);
     REQUIRE(conn_map_pairs_acquire(h.map, CONN_SPACE_HOST, CONN_PAIRS_EXPAND, &h.pairs) == CONN_OK);
     REQUIRE(h.rows.n_entries == 2 * n_pairs);
     REQUIRE(h.pairs.n_pairs == n_pairs);
+    start_ghosts(&h);
     return h;
 }
 
 static void finish(host* h) {
     REQUIRE(conn_map_rows_release(&h->rows) == CONN_OK && h->rows.slots == NULL);
     REQUIRE(conn_map_pairs_release(&h->pairs) == CONN_OK && h->pairs.j == NULL);
+    REQUIRE(conn_map_intersection_release(&h->common) == CONN_OK && h->common.slots == NULL);
+    REQUIRE(conn_pair_field_destroy(&h->field) == CONN_OK && h->field == NULL);
+    REQUIRE(conn_boundaries_destroy(&h->boundaries) == CONN_OK && h->boundaries == NULL);
+    REQUIRE(conn_map_destroy(&h->with_ghosts) == CONN_OK && h->with_ghosts == NULL);
     REQUIRE(conn_map_destroy(&h->map) == CONN_OK && h->map == NULL);
     REQUIRE(conn_nodes_destroy(&h->nodes) == CONN_OK && h->nodes == NULL);
     REQUIRE(conn_context_destroy(&h->context) == CONN_OK && h->context == NULL);
@@ -83,6 +125,10 @@ static void require_all(host* h, conn_status expected) {
     REQUIRE(strstr(conn_last_error(), "conn_map_rebuild: ") != NULL);
     REQUIRE(conn_map_generation(h->map, &generation) == expected);
     REQUIRE(conn_map_pairs_acquire(h->map, CONN_SPACE_HOST, 0, &pairs) == expected);
+    REQUIRE(conn_pair_field_reset(h->field, h->with_ghosts) == expected);
+    REQUIRE(conn_map_set_coupling(h->map, NULL, 0) == expected);
+    REQUIRE(conn_boundaries_update(h->boundaries, h->map, &h->nodes, 1, CONN_GHOSTS_CULL) ==
+            expected);
 }
 
 static void late_destroy(void) {
