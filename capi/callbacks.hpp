@@ -10,9 +10,9 @@ namespace connectivity::capi {
 
 template <class F, class... Arguments>
 auto ask_host(F function, Arguments... arguments) {
-    const CallbackScope scope;
+    CallbackScope scope;
     const auto answer = function(arguments...);
-    clear_error();
+    scope.clear_error();
     return answer;
 }
 

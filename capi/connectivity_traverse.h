@@ -33,12 +33,13 @@ typedef int32_t (*conn_rows_callback)(void* user_data, int32_t worker, int64_t n
  * content that rows and pairs of a rebuild would have. The callback is called from several threads
  * at once, with blocks of at most 4096 neighbours or one longer row; each stored node (CONN_ROWS)
  * or each slot (CONN_PAIRS) comes in exactly one block, also without neighbours, in any order. The
- * options rows, pairs, spatial_order and budget_bytes do not count; blocks are in the order of
- * slots, whatever the option order. Slots are numbered as in a rebuild. The map's lists, views and
- * generation stay as they are; its report gains an entry "traversal". CONN_E_CALLBACK if the
- * callback returned other than 0: the last error then has that number and the text of
- * conn_set_error, and no block was begun afterwards but on other threads at that moment.
- * CONN_E_ARGUMENT for CONN_PAIRS with another mode than CONN_GATHER_SCATTER. */
+ * options rows, pairs, spatial_order and budget_bytes do not count; neighbours ascend by slot, and
+ * partners are those with a higher slot, also with CONN_ORDER_KEY. Slots are numbered as in a
+ * rebuild. The map's lists, views and generation stay as they are; its report gains an entry
+ * "traversal".
+ * CONN_E_CALLBACK if the callback returned other than 0: the last error then has that number and
+ * the text of conn_set_error, and no block was begun afterwards but on other threads at that
+ * moment. CONN_E_ARGUMENT for CONN_PAIRS with another mode than CONN_GATHER_SCATTER. */
 CONN_API conn_status conn_map_traverse(conn_map* map, conn_nodes* const* lists, int32_t n_lists,
                                        int32_t what, conn_rows_callback callback, void* user_data);
 /**@}*/

@@ -17,6 +17,14 @@
 
 namespace connectivity::capi {
 
+/// What a thread keeps between calls. Plain memory: nothing to construct, to destroy at the end of
+/// a thread, or to run out of.
+struct ThreadState {
+    char error[2048];
+    bool is_in_callback;
+};
+ThreadState& this_thread() noexcept;
+
 const char* last_error() noexcept;
 void clear_error() noexcept;
 
@@ -27,13 +35,19 @@ conn_status record_error(Status status, const char* function, const char* text) 
 void set_error(const char* text) noexcept;
 
 /// While one lives, this thread is inside a callback of the host, from which nothing that takes
-/// the call mutex may be called: the call that waits for the callback holds it.
+/// the call mutex may be called: the call that waits for the callback holds it. Looks the thread up
+/// once, which is most of its cost.
 class CallbackScope {
 public:
-    CallbackScope() noexcept;
-    ~CallbackScope();
+    CallbackScope() noexcept : thread_(this_thread()) { thread_.is_in_callback = true; }
+    ~CallbackScope() { thread_.is_in_callback = false; }
     CallbackScope(const CallbackScope&) = delete;
     CallbackScope& operator=(const CallbackScope&) = delete;
+
+    void clear_error() noexcept { thread_.error[0] = '\0'; }
+
+private:
+    ThreadState& thread_;
 };
 bool in_callback() noexcept;
 

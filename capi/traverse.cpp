@@ -65,8 +65,8 @@ private:
         const auto n_rows = static_cast<std::int64_t>(std::exchange(block.n_rows, 0));
         if (stopped_.load(std::memory_order_relaxed)) return;
         const std::int32_t answer = [&] {
-            const CallbackScope scope;
-            clear_error();
+            CallbackScope scope;
+            scope.clear_error();
             return callback_(user_data_, worker, n_rows, block.slots.data(), block.offsets.data(),
                              block.neighbours.data());
         }();
