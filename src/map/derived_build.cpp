@@ -135,17 +135,26 @@ void DerivedBuild<Dim>::search_rows(const DerivedRequest<Dim>& request, const La
     search.run(nodes_, layout_, wanted, rows_, half_rows_, report);
     if (wanted.rows) leave_out(filter, labels, rows_, layout_.n_lists());
     if (wanted.half_rows) leave_out(filter, labels, half_rows_, 0);
-    if (!options.overlap || uniform_) return;
+    if (options.overlap && !uniform_) search_one_sided(request, labels, search, report);
+}
+
+/// Who is seen by a node and who sees it. The search has just ordered these nodes.
+template <int Dim>
+void DerivedBuild<Dim>::search_one_sided(const DerivedRequest<Dim>& request, const Labels& labels,
+                                         Search<Dim>& search, Report& report) {
+    const PairFilter filter(request.layout, request.options);
+    const Stopwatch watch;
     Csr none("map/derived/none");
-    Report unseen;
+    Report own;
     for (auto [mode, list] :
          {std::pair{SearchMode::gather, &gather_}, std::pair{SearchMode::scatter, &scatter_}}) {
-        search.run(
-            nodes_, layout_,
-            {true, false, mode, options.method, options.budget, wanted.rows || wanted.half_rows},
-            *list, none, unseen);
+        const SearchRequest wanted{
+            true, false, mode, request.options.method, request.options.budget, true};
+        search.run(nodes_, layout_, wanted, *list, none, own);
         leave_out(filter, labels, *list, 1);
     }
+    for (const char* held : {"order", "scratch"}) report.entry(held).bytes = own.entry(held).bytes;
+    report.entry("derived").ms += watch.ms();
 }
 
 /// Counts what the rows become in the hands of the map.
@@ -263,6 +272,8 @@ void DerivedBuild<Dim>::run(const DerivedRequest<Dim>& request, Search<Dim>& sea
     const bool walks = options.overlap || options.intersection != IntersectionKind::none;
     if (options.spatial_order || (walks && !by_key))
         near_order_ = search.spatial_order(nodes_, report);
+    if (near_order_.size() > 0 && !options.spatial_order)
+        report.entry("order").asked_by = "overlap and intersections";
     try {
         search_rows(request, labels, search, report);
         prepare(request, labels, lists, report);
