@@ -148,6 +148,20 @@ TEST_F(CapiLeftOut, lists_that_do_not_interact_see_each_other_nowhere) {
     expect_traversals(expected);
 }
 
+TEST_F(CapiLeftOut, a_traversal_in_key_order_has_the_rows_of_ghosts_and_is_by_slot) {
+    conn_map_options options = CONN_MAP_OPTIONS_INIT;
+    options.order = CONN_ORDER_KEY;
+    ASSERT_TRUE(ok(conn_map_set_options(map, &options)));
+    for (NodeSet& set : sets) set.n_internal = -1;
+    Lists found;
+    found.rows = traversed(CONN_ROWS);
+    const auto halves = traversed(CONN_PAIRS);
+    for (std::size_t slot = 0; slot < halves.size(); ++slot)
+        for (const std::int32_t j : halves[slot])
+            found.pairs.emplace_back(static_cast<std::int32_t>(slot), j);
+    EXPECT_EQ(found, brute_force(2, sets));
+}
+
 TEST_F(CapiLeftOut, only_active_nodes_have_neighbours_and_pairs) {
     std::vector<std::uint8_t> active(300);
     for (std::size_t k = 0; k < active.size(); ++k) active[k] = k % 5 < 2 ? 1 : 0;
