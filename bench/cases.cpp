@@ -14,6 +14,12 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+/// What a variant is about, it measures in one form only.
+bool fits(const std::string& variant, const std::string& form) {
+    if (is_feature(variant)) return form == "both";
+    return form == "pairs" || !(is_host_step(variant) || is_pair_sum(variant));
+}
+
 /// Adds a group for both numbers of threads: all contestants, then variants of ours.
 void add(std::vector<CaseName>& cases, CaseName c, const Names& forms, const Names& variants) {
     Names whos = contestants();
@@ -30,8 +36,7 @@ void add(std::vector<CaseName>& cases, CaseName c, const Names& forms, const Nam
             c.who = "ours";
             for (const std::string& variant : variants) {
                 c.variant = variant;
-                if (form == "pairs" || !(is_host_step(variant) || is_pair_sum(variant)))
-                    cases.push_back(c);
+                if (fits(variant, form)) cases.push_back(c);
             }
         }
 }
@@ -53,8 +58,9 @@ void add_sizes(std::vector<CaseName>& cases, const std::string& workload) {
         if (size == "1e3" || size == "1e4") {
             variants = methods;
             if (workload == "W1" || workload == "W3")
-                variants.insert(variants.end(), {"3lists", "tensor", "step", "reordered",
-                                                 "sumatomic", "sumrows", "sumcolours"});
+                variants.insert(variants.end(),
+                                {"3lists", "tensor", "step", "reordered", "sumatomic", "sumrows",
+                                 "sumcolours", "key", "overlap", "intersection"});
         }
         if ((workload == "W1" || workload == "W3" || workload == "W7") &&
             (size == "1e3" || size == "1e4" || size == "1e5"))
@@ -87,7 +93,7 @@ std::vector<CaseName> all_cases() {
         add(cases, named(workload), all_forms,
             workload == "W1" || workload == "W3"
                 ? Names{"3lists", "tensor", "device", "step", "reordered", "sumatomic", "sumrows",
-                        "sumcolours"}
+                        "sumcolours", "key", "overlap", "intersection"}
             : workload == "W7" ? Names{"device", "step", "reordered"}
                                : Names{"step", "reordered"});
     for (const std::string workload : test::all_workloads)

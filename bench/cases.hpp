@@ -8,7 +8,8 @@
 /// method instead of the automatic choice, or a host's whole step, rebuild and one loop over the
 /// pairs, with nodes as they come (`step`) or in spatial order (`reordered`), or one of 100 steps
 /// on average, with a skin of s mean supports (`skin<s>`), or one sum of a field over pairs at its
-/// nodes, without a build (`sumatomic`, `sumrows`, `sumcolours`). Cases that differ by who and
+/// nodes, without a build (`sumatomic`, `sumrows`, `sumcolours`), or rows, pairs and one product
+/// more (`key` order, `overlap`, `intersection`, in the form `both`). Cases that differ by who and
 /// variant only are a group, measured in turns in one process.
 
 #include <string>

@@ -4,7 +4,7 @@
 
     python3 bench/charts.py record.json [more.json ...] --out DIR
 
-P7 time per node against size, P8 search methods on hard scenes, P9 reuse of pairs with a skin, P13 price of deterministic sums, P17 price of checking the input, P18 small builds.
+P7 time per node against size, P8 search methods on hard scenes, P9 reuse of pairs with a skin, P13 price of deterministic sums, P16 price of features, P17 price of checking the input, P18 small builds.
 """
 
 import argparse
@@ -178,6 +178,26 @@ def price_of_determinism(cases, out):
         "atomic sum (1.2 allowed on 2); lists of entry and colour, made once per rebuild, are not counted."))
 
 
+def price_of_features(cases, out):
+    """Rows, pairs and one more product, relative to rows and pairs."""
+    rows, heights = [], {}
+    for case, runs in cases.items():
+        base = cases.get(case._replace(variant=""))
+        if case.variant in ("key", "overlap", "intersection") and base:
+            time = runs.ms() / base.ms()
+            memory = (runs.get("peak_MiB") or 0) / (base.get("peak_MiB") or math.nan)
+            rows.append([case.workload, case.threads, runs.get("nodes"), case.variant, runs.ms(), time, runs.get("peak_MiB"), memory])
+            heights.setdefault(f"{case.workload}{'@' + case.size if case.size else ''}, {case.threads}", {})[
+                case.variant] = time
+    chart = Chart(out, "P16_price_of_features", ["workload", "threads", "nodes", "feature", "ms", "over_base", "peak_MiB",
+                                                 "peak_over_base"], rows)
+    worst = max(rows, key=lambda row: row[5], default=None)
+    chart.bars(heights, "time / rows and pairs alone", worst and (
+        "P16: rows and pairs with one more product, relative to rows and pairs alone, by scene and threads; "
+        f"{worst[3]} on {worst[0]} with {worst[1]} threads costs most, {worst[5]:.1f} times, at {worst[7]:.1f} times the peak "
+        "memory; what is not asked for costs nothing."))
+
+
 def price_of_checks(cases, out):
     curves = curves_of(cases, lambda runs: runs.get("check_percent"),
                        lambda case: case.who == "ours" and is_plain(case) and case.form == "rows" and case.threads == 2)
@@ -206,7 +226,7 @@ def main():
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     _, cases = read(arguments.records)
-    for chart in (time_per_node, hard_scenes, reuse, price_of_determinism, price_of_checks, small_builds):
+    for chart in (time_per_node, hard_scenes, reuse, price_of_determinism, price_of_features, price_of_checks, small_builds):
         chart(cases, arguments.out)
     print(f"{arguments.out}: " + ("CSV and PNG" if pyplot else "CSV only, matplotlib (python3-matplotlib) is missing"))
 

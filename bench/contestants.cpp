@@ -20,14 +20,22 @@ SearchMethod method_of(const std::string& variant) {
     for (const SearchMethod method :
          {SearchMethod::brute, SearchMethod::cells, SearchMethod::groups, SearchMethod::device})
         if (variant == name_of(method)) return method;
-    if (!variant.empty() && variant != "3lists" && variant != "tensor")
+    if (!variant.empty() && variant != "3lists" && variant != "tensor" && !is_feature(variant))
         throw std::invalid_argument("no variant named " + variant);
     return SearchMethod::automatic;
+}
+
+/// Asks for what a feature variant is about, beside rows and pairs.
+void ask_for(const std::string& feature, MapOptions& options) {
+    if (feature == "key") options.order = ListOrder::key;
+    if (feature == "overlap") options.overlap = true;
+    if (feature == "intersection") options.intersection = IntersectionKind::in_segment;
 }
 
 class Ours final : public Contestant {
 public:
     Ours(const Input& input, Form form, const std::string& variant) {
+        ask_for(variant, options_);
         options_.rows = form != Form::pairs;
         options_.pairs = form != Form::rows;
         options_.method = method_of(variant);
@@ -54,10 +62,12 @@ public:
         const auto later = std::upper_bound(neighbours.begin(), neighbours.end(), node);
         bool same = true;
         if (options_.rows) {
-            const auto row = map_.rows()[node];
+            const auto found = map_.rows()[node];
+            std::vector<Slot> row(found.begin(), found.end());
+            if (options_.order == ListOrder::key) std::sort(row.begin(), row.end());
             same = std::equal(row.begin(), row.end(), neighbours.begin(), neighbours.end());
         }
-        if (options_.pairs) {
+        if (options_.pairs && options_.order == ListOrder::slot) {
             const auto pairs = map_.pairs().view();
             same =
                 same && std::equal(pairs.data() + pairs.offsets(node),
@@ -98,6 +108,10 @@ private:
 };
 
 }  // namespace
+
+bool is_feature(const std::string& variant) {
+    return variant == "key" || variant == "overlap" || variant == "intersection";
+}
 
 Form form_of(const std::string& name) {
     if (name == "rows") return Form::rows;

@@ -57,6 +57,9 @@ std::vector<std::string> contestants();
 /// It has no tensors, and does not offer rows and pairs together.
 bool nanoflann_takes_part(const std::string& workload, const std::string& form);
 
+/// Variants `key`, `overlap` and `intersection`: rows, pairs and that product, too.
+bool is_feature(const std::string& variant);
+
 /// `variant` is of ours: see cases.hpp. The input has to outlive the contestant, which stands at
 /// state 0. Starts the runtime.
 std::unique_ptr<Contestant> make_contestant(const std::string& who, const std::string& variant,

@@ -7,7 +7,7 @@ from collections import namedtuple
 
 MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 VARIANTS = ("3lists", "tensor", "brute", "cells", "groups", "device", "step", "reordered",
-            "sumatomic", "sumrows", "sumcolours", "skin0", "skin0.05", "skin0.1", "skin0.2", "skin0.3", "skin0.5")
+            "sumatomic", "sumrows", "sumcolours", "key", "overlap", "intersection", "skin0", "skin0.05", "skin0.1", "skin0.2", "skin0.3", "skin0.5")
 
 
 class Case(namedtuple("Case", "who workload form threads size first variant")):

@@ -18,12 +18,13 @@ standard="$any/W[1-7]/(rows|pairs|both)/[12](/(3lists|tensor|step|reordered))?\$
 sizes='^ours/W[1-7]/(rows|pairs)/2/[134]e[3-6]$'
 hard="$any/A[0-9a-z]+/rows/2|^ours/W[1-7]/rows/2/1e4"
 reuse='^ours/W1/pairs/2/1e4-skin|^ours/W[13]/pairs/[12]/(1e4-)?sum'
+features='^ours/W[13]/both/2/1e4(-(key|overlap|intersection))?$'
 small="$any/W1/rows/[12]/(1|10|100|1e3|1e4)(-(brute|groups))?\$"
-filter="$standard|$sizes|$hard|$small|$reuse" options=
+filter="$standard|$sizes|$hard|$small|$reuse|$features|^ours/W1/both/2/(key|overlap|intersection)\$" options=
 while [ $# -gt 0 ]; do
     case $1 in
     --quick)
-        filter="$any/W[1-7]/(rows|pairs)/2/(1e4|1e5)\$|$any/W2/(rows|pairs)/2\$|$hard|$small|$reuse"
+        filter="$any/W[1-7]/(rows|pairs)/2/(1e4|1e5)\$|$any/W2/(rows|pairs)/2\$|$hard|$small|$reuse|$features"
         options="--benchmark_repetitions=3 --benchmark_min_time=0.05" ;;
     --tiny)
         filter="$any/W[13467]/rows/2/1e3|^ours/W[13]/both/2/1e3|^ours/W1/pairs/2/1e3|^ours/W1/rows/[12]/100|$any/A(4|8|10)/rows/2"
