@@ -7,7 +7,6 @@
 #include <connectivity/base/parallel.hpp>
 
 #include "guard.hpp"
-#include "map/pair_filter.hpp"
 #include "objects.hpp"
 
 using namespace connectivity;
@@ -19,9 +18,8 @@ namespace {
 /// another language may cost as much as a row. Blocks stay in the first-level cache.
 class BlockCallback {
 public:
-    /// filter: what is left out of the rows; has to outlive this object.
-    BlockCallback(conn_rows_callback callback, void* user_data, const PairFilter& filter)
-        : callback_(callback), user_data_(user_data), filter_(filter), block_(n_workers()) {}
+    BlockCallback(conn_rows_callback callback, void* user_data)
+        : callback_(callback), user_data_(user_data), block_(n_workers()) {}
 
     void operator()(int worker, Slot slot, std::span<const Slot> neighbours) {
         Block& block = block_[worker];
@@ -30,14 +28,10 @@ public:
             hand_over(worker);
         if (block.neighbours.size() < block.size() + neighbours.size())
             block.neighbours.resize(std::max(most_neighbours, neighbours.size()));
-        const auto begin = block.neighbours.begin() + block.offsets[block.n_rows];
-        const auto end = filter_.any()
-                             ? std::ranges::copy_if(neighbours, begin,
-                                                    [&](Slot j) { return filter_.keeps(slot, j); })
-                                   .out
-                             : std::ranges::copy(neighbours, begin).out;
+        std::ranges::copy(neighbours, block.neighbours.begin() + block.offsets[block.n_rows]);
         block.slots[block.n_rows] = slot;
-        block.offsets[block.n_rows + 1] = end - block.neighbours.begin();
+        block.offsets[block.n_rows + 1] =
+            block.offsets[block.n_rows] + static_cast<std::int64_t>(neighbours.size());
         ++block.n_rows;
     }
 
@@ -79,17 +73,9 @@ private:
 
     conn_rows_callback callback_;
     void* user_data_;
-    const PairFilter& filter_;
     std::vector<Block> block_;  // [n_workers]
     std::atomic<bool> stopped_{false};
 };
-
-/// Where the slots of the lists begin.
-SlotLayout layout_of(std::span<const NodeList> lists) {
-    std::vector<ListSize> sizes;
-    for (const NodeList& list : lists) sizes.push_back({list.n(), list.n_internal()});
-    return SlotLayout(sizes, false);
-}
 
 }  // namespace
 
@@ -103,9 +89,7 @@ conn_status conn_map_traverse(conn_map* map, conn_nodes* const* lists, int32_t n
                         "what = " + std::to_string(what) + ", must be CONN_ROWS or CONN_PAIRS");
         if (callback == nullptr) throw Error(Status::null, "callback is NULL");
         const MapOptions options = options_of(ours);
-        const SlotLayout layout = layout_of(nodes);
-        const PairFilter filter(layout, options);
-        BlockCallback blocks(callback, user_data, filter);
+        BlockCallback blocks(callback, user_data);
         if (what == CONN_ROWS)
             ours.map->for_each_row(nodes, options, blocks);
         else

@@ -30,6 +30,8 @@ void check_combination(const std::string& call, const MapOptions& options) {
     if (options.mode != SearchMode::gather_scatter && (options.overlap || intersects))
         throw Error(Status::argument,
                     call + ": overlap and intersections exist only for gather_scatter");
+    if (options.exclude != nullptr && !*options.exclude)
+        throw Error(Status::argument, call + ": the predicate of exclude is empty");
     if (options.active.size() > 0 && (options.overlap || intersects))
         throw Error(Status::argument, call + ": overlap and intersections need all nodes active");
 }

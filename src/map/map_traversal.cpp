@@ -17,6 +17,29 @@ private:
     bool& flag_;
 };
 
+/// A host's function behind a filter of pairs.
+class Filtered {
+public:
+    Filtered(const PairFilter& filter, RowFunction f)
+        : filter_(filter), f_(f), row_(static_cast<std::size_t>(n_workers())) {}
+
+    void operator()(int worker, Slot slot, std::span<const Slot> neighbours) {
+        std::vector<Slot>& row = row_[static_cast<std::size_t>(worker)].slots;
+        row.clear();
+        for (const Slot j : neighbours)
+            if (filter_.keeps(slot, j)) row.push_back(j);
+        f_(worker, slot, row);
+    }
+
+private:
+    struct alignas(64) Row {
+        std::vector<Slot> slots;
+    };
+    const PairFilter& filter_;
+    RowFunction f_;
+    std::vector<Row> row_;  // [n_workers]
+};
+
 }  // namespace
 
 void ConnectivityMap::for_each_row(std::span<const NodeList> lists, const MapOptions& options,
@@ -62,7 +85,13 @@ void ConnectivityMap::traverse_in(std::span<const NodeList> lists, const MapOpti
     report.entry("nodes").bytes = impl_->storage.bytes();
     const double prepared_ms = preparing.ms();
     const SearchRequest request{options.rows, options.pairs, options.mode, options.method, {}};
-    impl_->search<Dim>().visit(nodes, layout, request, f, report);
+    const PairFilter filter(layout, options);
+    if (filter.any()) {
+        Filtered filtered(filter, f);
+        impl_->search<Dim>().visit(nodes, layout, request, filtered, report);
+    } else {
+        impl_->search<Dim>().visit(nodes, layout, request, f, report);
+    }
     report.entry("traversal").ms += prepared_ms;
     std::swap(report_, report);
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <connectivity/base/kokkos_shim.hpp>
+#include <connectivity/base/runtime.hpp>
 #include <connectivity/map/pair_field_base.hpp>
 
 #include "search/first_exception.hpp"
@@ -67,6 +68,7 @@ void PairCoupling::set(const HalfRows& pairs, const NodeCoupling& f) {
     const auto n = static_cast<Offset>(pairs.j.size());
     ensure_capacity(spare_, label, n);
     shim::outside_parallel_region([&] {
+        start_runtime();  // for this thread: it may be another one than the builder's
         const Offset bad = evaluate(pairs, f, spare_.data());
         if (bad < n) throw_out_of_range(pairs, bad, spare_(bad));
     });

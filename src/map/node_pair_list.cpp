@@ -42,7 +42,7 @@ void NodePairList::set_coupling(Offset k, double value) {
 void NodePairList::start_generation(Generation generation, bool built) noexcept {
     generation_ = generation;
     stamp_ = built ? new_stamp() : 0;
-    coupling_.drop();
+    built ? coupling_.drop() : coupling_.clear();
 }
 
 void NodePairList::continue_generation(Generation generation) noexcept {

@@ -157,6 +157,11 @@ TEST(Coupling, memory_that_nobody_asks_for_any_more_goes_back) {
     EXPECT_EQ(map.pairs().bytes(), bytes + 8 * map.pairs().size());
     rebuild(map, c);
     EXPECT_EQ(map.pairs().bytes(), bytes);
+    map.pairs().set_coupling(factor);
+    MapOptions no_pairs = map_options(c);
+    no_pairs.pairs = false;
+    map.rebuild(node_lists(c), no_pairs);
+    EXPECT_EQ(map.report().find("pairs")->bytes, 0);
 }
 
 TEST(Coupling, a_list_that_was_never_built_has_no_pairs_to_couple) {

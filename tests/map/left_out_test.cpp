@@ -74,6 +74,25 @@ TEST(LeftOut, a_predicate_takes_pairs_out_of_rows_and_pairs_alike) {
     }
 }
 
+TEST(LeftOut, traversals_leave_out_the_same) {
+    ConnectivityMap map;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        const Case c = random_case(seed, {static_cast<int>(seed % 3) + 1, seed % 2 != 0, 100});
+        MapOptions options = map_options(c);
+        options.exclude = odd_sums();
+        const Expected want = filtered(brute_force(c), [](Slot i, Slot j) {
+            return !odd_sum(std::min(i, j), std::max(i, j));
+        });
+        std::vector<std::vector<Slot>> rows(static_cast<std::size_t>(c.n_slots()));
+        map.for_each_row(node_lists(c), options, [&](int, Slot slot, std::span<const Slot> row) {
+            rows[static_cast<std::size_t>(slot)].assign(row.begin(), row.end());
+        });
+        std::vector<Slot> all;
+        for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
+        ASSERT_EQ(all, want.row_slots) << c.text;
+    }
+}
+
 TEST(LeftOut, lists_that_do_not_see_each_other_have_no_pairs) {
     ConnectivityMap map;
     for (std::uint64_t seed = 0; seed < 500; ++seed) {
@@ -180,6 +199,8 @@ TEST(LeftOut, bad_requests_are_refused_and_change_nothing) {
         o.pairs = false, o.overlap = true;
         o.mode = SearchMode::gather;
     });
+    refused({"exclude", "empty"},
+            [](MapOptions& o) { o.exclude = std::make_shared<const PairPredicate>(); });
     EXPECT_TRUE(fails_with(Status::argument, {"empty"}, [&] { map.remove_pairs({}); }));
     MapOptions options = map_options(c);
     options.overlap = true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A host may call from inside its own OpenMP regions, where Kokkos alone would do half of the work.
 
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include <connectivity/base/kokkos_shim.hpp>
@@ -60,6 +62,21 @@ TEST(OpenMPRegion, a_traversal_inside_hands_over_all) {
                          [&](int, Slot, std::span<const Slot> row) { entries += row.size(); });
     });
     EXPECT_EQ(entries, expected.row_slots.size());
+}
+
+TEST(OpenMPRegion, a_coupling_set_inside_or_by_another_thread_reaches_every_pair) {
+    const Case c = cloud(2000, 1);
+    ConnectivityMap map;
+    rebuild(map, c);
+    const auto all_are = [&](double value) {
+        for (Offset k = 0; k < map.pairs().size(); ++k)
+            if (map.pairs().coupling(k) != value) return false;
+        return true;
+    };
+    inside_a_region([&] { map.pairs().set_coupling([](Slot, Slot) { return 0.5; }); });
+    EXPECT_TRUE(all_are(0.5));
+    std::thread([&] { map.pairs().set_coupling([](Slot, Slot) { return 0.25; }); }).join();
+    EXPECT_TRUE(all_are(0.25));
 }
 
 TEST(OpenMPRegion, the_function_of_a_traversal_may_not_launch_more) {

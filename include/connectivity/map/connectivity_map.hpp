@@ -84,9 +84,9 @@ public:
     /// options would put in rows, and nothing is stored. `neighbours`, a std::span<const Slot>
     /// valid during the call, are ascending slots, lists one after the other. Each stored node
     /// comes exactly once, also without neighbours, in any order, from several threads at once;
-    /// worker < n_workers() numbers them, for private accumulators. options.rows, pairs,
-    /// spatial_order and budget do not count here. f must not launch kernels; rebuild,
-    /// traversals, drift and needs_rebuild of this map throw Error{callback} there.
+    /// worker < n_workers() numbers them, for private accumulators. options.rows, pairs, order,
+    /// spatial_order and budget do not count here: rows ascend by slot. f must not launch kernels;
+    /// rebuild, traversals, drift and needs_rebuild of this map throw Error{callback} there.
     ///
     /// No rebuild: lists, views, generation, drift and options stay those of the last one; the
     /// report gains an entry "traversal". Throws as `rebuild` does, and the first exception that f
