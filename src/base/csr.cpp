@@ -47,6 +47,7 @@ void Csr::publish() {
 
 void Csr::abandon() {
     grown_ = {};
+    spare_ = {};
     pending_rows_ = pending_values_ = 0;
 }
 

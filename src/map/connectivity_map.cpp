@@ -34,15 +34,20 @@ void ConnectivityMap::rebuild_in(std::span<const NodeList> lists, const MapOptio
     ConstView<Slot> order;
     search_in<Dim>(lists, options, layout, order, report);
 
+    const bool patched_before = patched_ || removed_pairs_;
     // Nothing below can fail: this is where the new lists become the map's.
     layout_ = std::move(layout);
     list_names_.swap(names);
     n_internal_.swap(n_internal);
+    impl_->keep_only<Dim>(options.is_derived());
     dim_ = Dim;
+    patched_ = removed_pairs_ = false;
     std::swap(options_, kept);
     order_ = order;
     keep_reference(lists, report);
+    if (!patched_before) impl_->patch.reset();
     std::swap(report_, report);
+    order_bytes_ = report_.entry("order").bytes;
     ++generation_;
     publish_pairs();
     pairs_.start_generation(generation_, options.wants_pairs());
@@ -65,19 +70,17 @@ void ConnectivityMap::search_in(std::span<const NodeList> lists, const MapOption
         impl_->storage.bytes(),
         preparing.ms()};
     auto& search = impl_->search<Dim>();
-    auto& derived = impl_->derived<Dim>();
     reserve_reference(lists, options, report);
     if (options.is_derived())
-        return derived.run({lists, nodes, layout, options}, search,
-                           {rows_, pairs_.half_rows_, overlap_, intersection_, key_order_}, order,
-                           report);
+        return impl_->derived<Dim>().run(
+            {lists, nodes, layout, options}, search,
+            {rows_, pairs_.half_rows_, overlap_, intersection_, key_order_}, order, report);
     if (options.spatial_order) order = search.spatial_order(nodes, report);
     search.run(nodes, layout,
                {options.rows, options.pairs, options.mode, options.method, options.budget,
                 options.spatial_order},
                rows_, pairs_.half_rows_, report);
     overlap_.clear(), intersection_.clear(), key_order_.clear();
-    if (derived.bytes() > 0) derived.release();
 }
 
 /// What the pair list shows of the order it is in.

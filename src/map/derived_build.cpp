@@ -47,6 +47,11 @@ void abandon(MapLists lists) {
     lists.intersection.abandon();
 }
 
+/// What a list needs, whatever spare capacity it has.
+Offset list_bytes(Offset n_values, Offset n_rows) {
+    return n_values * Offset{sizeof(Slot)} + (n_rows + 1) * Offset{sizeof(Offset)};
+}
+
 /// Bytes of each product, or why they are too many.
 struct Needs {
     Offset lists = 0, overlap = 0, intersection = 0;
@@ -185,17 +190,24 @@ void DerivedBuild<Dim>::prepare(const DerivedRequest<Dim>& request, const Labels
                                 MapLists lists, Report& report) {
     const MapOptions& options = request.options;
     count_relabelled(request, labels, lists);
-    Needs needs{rows_.bytes() + half_rows_.bytes(), 0, 0};
+    Needs needs;
+    if (options.rows)
+        needs.lists +=
+            list_bytes(rows_.n_values(), request.layout.n_rows() * request.layout.n_lists());
+    if (options.wants_pairs())
+        needs.lists += list_bytes(half_rows_.n_values(), half_rows_.n_rows());
     if (options.overlap) {
         const Stopwatch watch;
         const Csr &gather = uniform_ ? rows_ : gather_, &scatter = uniform_ ? rows_ : scatter_;
-        needs.overlap = overlap_.prepare(
+        if (!overlap_) overlap_.emplace();
+        needs.overlap = overlap_->prepare(
             {label_rows(gather), label_rows(scatter), labels, near_order_.data()}, lists.overlap);
         report.entry("overlap").ms += watch.ms();
     }
     if (options.intersection != IntersectionKind::none) {
         const Stopwatch watch;
-        needs.intersection = intersection_.prepare(
+        if (!intersection_) intersection_.emplace();
+        needs.intersection = intersection_->prepare(
             {label_rows(rows_), label_rows(half_rows_), nodes_.positions.data(), nodes_.periods,
              options.intersection == IntersectionKind::in_segment, labels, near_order_.data()},
             lists.intersection);
@@ -215,12 +227,12 @@ void DerivedBuild<Dim>::commit(const DerivedRequest<Dim>& request, const Labels&
     const MapOptions& options = request.options;
     if (options.overlap) {
         const Stopwatch watch;
-        overlap_.commit(lists.overlap);
+        overlap_->commit(lists.overlap);
         report.entry("overlap").ms += watch.ms();
     }
     if (options.intersection != IntersectionKind::none) {
         const Stopwatch watch;
-        intersection_.commit(lists.intersection);
+        intersection_->commit(lists.intersection);
         report.entry("intersection").ms += watch.ms();
     }
     commit_rows(request, labels, lists);
@@ -279,10 +291,27 @@ void DerivedBuild<Dim>::run(const DerivedRequest<Dim>& request, Search<Dim>& sea
         prepare(request, labels, lists, report);
     } catch (...) {
         abandon(lists);
+        forget(options);
         throw;
     }
     if (options.spatial_order) order = as_slots(labels);
     commit(request, labels, lists, report);
+    forget(options);
+}
+
+/// Lets go of the caller's nodes, and of scratch memory for what was not asked for. Cannot fail.
+template <int Dim>
+void DerivedBuild<Dim>::forget(const MapOptions& options) {
+    nodes_ = {};
+    near_order_ = {};
+    if (!options.overlap) overlap_.reset();
+    if (!options.overlap || uniform_) gather_.clear(), scatter_.clear();
+    if (options.intersection == IntersectionKind::none) intersection_.reset();
+    if (options.interactions.empty() && options.exclude == nullptr) spare_.clear();
+    if (options.order == ListOrder::key) return;
+    next_order_.clear();
+    positions_ = reach2_ = H_ = {};
+    active_ = {};
 }
 
 /// The order of the search, by slot.
@@ -295,7 +324,8 @@ ConstView<Slot> DerivedBuild<Dim>::as_slots(const Labels& labels) {
 
 template <int Dim>
 Offset DerivedBuild<Dim>::bytes() const {
-    Offset sum = overlap_.bytes() + intersection_.bytes() + next_order_.bytes();
+    Offset sum = (overlap_ ? overlap_->bytes() : 0) + (intersection_ ? intersection_->bytes() : 0) +
+                 next_order_.bytes();
     for (const Csr* list : {&rows_, &half_rows_, &gather_, &scatter_, &spare_})
         sum += list->bytes();
     return sum +

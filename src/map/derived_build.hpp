@@ -9,6 +9,8 @@
 /// map's lists are untouched, and what comes then cannot fail. Memory beside the result: the
 /// search's own lists, in key order a copy of the nodes.
 
+#include <optional>
+
 #include <connectivity/map/key_order.hpp>
 #include <connectivity/map/map_options.hpp>
 
@@ -43,7 +45,6 @@ public:
              ConstView<Slot>& order, Report& report);
 
     Offset bytes() const;
-    void release() { *this = DerivedBuild(); }
 
 private:
     void take_labels(const DerivedRequest<Dim>& request);
@@ -60,6 +61,7 @@ private:
                  Report& report);
     void commit(const DerivedRequest<Dim>& request, const Labels& labels, MapLists lists,
                 Report& report);
+    void forget(const MapOptions& options);
     ConstView<Slot> as_slots(const Labels& labels);
     void commit_rows(const DerivedRequest<Dim>& request, const Labels& labels, MapLists lists);
 
@@ -73,8 +75,8 @@ private:
     View<std::uint8_t> active_;            // by rank
     View<Slot> by_list_;                   // [n_slots * n_lists] entries of rows, in key order
     KeyOrder next_order_;
-    OverlapBuild overlap_;
-    IntersectionBuild<Dim> intersection_;
+    std::optional<OverlapBuild> overlap_;
+    std::optional<IntersectionBuild<Dim>> intersection_;
 };
 
 extern template class DerivedBuild<1>;

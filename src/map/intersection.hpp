@@ -29,7 +29,6 @@ public:
 
     /// Scratch memory held.
     Offset bytes() const;
-    void release() { *this = IntersectionBuild(); }
 
 private:
     struct alignas(64) Worker {

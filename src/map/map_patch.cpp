@@ -62,13 +62,14 @@ void ConnectivityMap::patch(std::span<const Slot> keep, std::span<const Slot> ol
             {layout_, n_internal_, list_names_, options_.stores_all_rows()}, keep, old2new);
         const MapLists lists{rows_, pairs_.half_rows_, overlap_, intersection_, key_order_};
         ConstView<Slot> order = renumbered(order_, now);
-        impl_->patch.prepare_nodes(now, layout_, lists, built_lists(options_));
+        impl_->patches().prepare_nodes(now, layout_, lists, built_lists(options_));
         if (options_.wants_pairs())
-            prepare_fields(fields, pairs_.coupling_, impl_->patch.new_to_old());
+            prepare_fields(fields, pairs_.coupling_, impl_->patch->new_to_old());
         layout_ = std::move(now.layout);
         n_internal_.swap(now.n_internal);
         order_ = order;
         impl_->reference.clear();
+        patched_ = true;
         std::swap(report_, report);
         finish_patch(fields, watch.ms());
     });
@@ -92,9 +93,10 @@ void ConnectivityMap::remove_pairs(const PairPredicate& leave_out,
         filter_options.exclude = std::make_shared<const PairPredicate>(leave_out);
         const PairFilter filter(layout_, filter_options);
         const MapLists lists{rows_, pairs_.half_rows_, overlap_, intersection_, key_order_};
-        impl_->patch.prepare_pairs(filter, layout_, lists, built_lists(options_));
+        impl_->patches().prepare_pairs(filter, layout_, lists, built_lists(options_));
         if (options_.wants_pairs())
-            prepare_fields(fields, pairs_.coupling_, impl_->patch.new_to_old());
+            prepare_fields(fields, pairs_.coupling_, impl_->patch->new_to_old());
+        removed_pairs_ = true;
         std::swap(report_, report);
         finish_patch(fields, watch.ms());
     });
@@ -102,8 +104,8 @@ void ConnectivityMap::remove_pairs(const PairPredicate& leave_out,
 
 /// Cannot fail.
 void ConnectivityMap::finish_patch(std::span<PairFieldBase* const> fields, double ms) {
-    impl_->patch.commit({rows_, pairs_.half_rows_, overlap_, intersection_, key_order_},
-                        built_lists(options_));
+    impl_->patch->commit({rows_, pairs_.half_rows_, overlap_, intersection_, key_order_},
+                         built_lists(options_));
     ++generation_;
     publish_pairs();
     if (options_.wants_pairs())

@@ -48,10 +48,12 @@ void ConnectivityMap::report_bytes() {
     report_.entry("overlap").bytes = overlap_.bytes();
     report_.entry("intersection").bytes = intersection_.bytes();
     report_.entry("key_order").bytes = key_order_.bytes();
-    report_.entry("derived").bytes = std::get<0>(impl_->derived_builds).bytes() +
-                                     std::get<1>(impl_->derived_builds).bytes() +
-                                     std::get<2>(impl_->derived_builds).bytes();
-    report_.entry("patch").bytes = impl_->patch.bytes();
+    report_.entry("derived").bytes = impl_->derived_bytes();
+    report_.entry("patch").bytes = impl_->patch ? impl_->patch->bytes() : 0;
+    report_.entry("skin").bytes = impl_->reference.bytes();
+    report_.entry("order").bytes = order_bytes_ + static_cast<Offset>(order_.size() * sizeof(Slot));
+    report_.entry("nodes").bytes =
+        impl_->storage.bytes() + static_cast<Offset>(layout_.active().size());
 }
 
 }  // namespace connectivity

@@ -3,8 +3,6 @@
 
 namespace connectivity {
 
-namespace {
-
 Offset check_lists(const std::string& call, std::span<const NodeList> lists) {
     if (lists.empty()) throw Error(Status::argument, call + ": 0 node lists, must be at least 1");
     Offset n = 0;
@@ -22,6 +20,8 @@ Offset check_lists(const std::string& call, std::span<const NodeList> lists) {
     return n;
 }
 
+namespace {
+
 void check_combination(const std::string& call, const MapOptions& options) {
     const bool intersects = options.intersection != IntersectionKind::none;
     if (options.mode != SearchMode::gather_scatter && options.pairs)
@@ -32,6 +32,16 @@ void check_combination(const std::string& call, const MapOptions& options) {
                     call + ": overlap and intersections exist only for gather_scatter");
     if (options.exclude != nullptr && !*options.exclude)
         throw Error(Status::argument, call + ": the predicate of exclude is empty");
+    const auto in_range = [&](const char* name, auto value, auto last) {
+        if (static_cast<int>(value) < 0 || value > last)
+            throw Error(Status::argument, call + ": " + name + " = " +
+                                              std::to_string(static_cast<int>(value)) +
+                                              ", must be one of its enumerators");
+    };
+    in_range("mode", options.mode, SearchMode::gather_scatter);
+    in_range("method", options.method, SearchMethod::device);
+    in_range("order", options.order, ListOrder::key);
+    in_range("intersection", options.intersection, IntersectionKind::in_segment);
     if (options.active.size() > 0 && (options.overlap || intersects))
         throw Error(Status::argument, call + ": overlap and intersections need all nodes active");
 }

@@ -94,6 +94,7 @@ void ConnectivityMap::traverse_in(std::span<const NodeList> lists, const MapOpti
     }
     report.entry("traversal").ms += prepared_ms;
     std::swap(report_, report);
+    order_bytes_ = report_.entry("order").bytes;
 }
 
 }  // namespace connectivity

@@ -76,7 +76,9 @@ std::vector<Slot> nodes_near_box(const NodeTree<Dim>& tree, const QueryBox<Dim>&
         around.lo[d] = box.lo[d] + shift, around.hi[d] = box.hi[d] + shift;
     }
     around.reach2 = 0;
-    auto near = tree.nearness(SearchMode::gather_scatter);
+    double far[Dim];
+    for (int d = 0; d < Dim; ++d) far[d] = std::max(std::fabs(box.lo[d]), std::fabs(box.hi[d]));
+    const auto near = tree.nearness(SearchMode::gather_scatter, tree.slack_at(far));
     // The nearest corner of a bounding box is up to sqrt(Dim) times as far as its ball.
     const auto may_hold = [&](auto other) {
         other.reach2 = mode == SearchMode::gather ? 0 : Dim * std::max(other.reach2, 0.0);

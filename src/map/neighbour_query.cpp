@@ -4,8 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include <connectivity/base/runtime.hpp>
-
+#include "map_impl.hpp"
 #include "near_shape.hpp"
 #include "support.hpp"
 
@@ -111,17 +110,18 @@ Asker<Dim> asker(const SearchNodes<Dim>& nodes, double extent, const QueryPoint&
 /// f(slot) for all that may be near the asker.
 template <int Dim, class F>
 void for_candidates(const NodeTree<Dim>& tree, const typename NodeTree<Dim>::Box& box,
-                    SearchMode mode, const F& f) {
-    const auto near = tree.nearness(mode);
+                    SearchMode mode, double slack, const F& f) {
+    const auto near = tree.nearness(mode, slack);
     tree.walk([&](const auto& other) { return near(box, other); }, f);
 }
 
 template <int Dim, class F>
 void for_neighbours(const NodeTree<Dim>& tree, const Asker<Dim>& from, SearchMode mode,
                     const F& f) {
-    for_candidates(tree, tree.box_at(from.x, from.reach2), mode, [&](Slot j) {
-        if (are_neighbours(tree.nodes(), from, j, mode)) f(j);
-    });
+    for_candidates(tree, tree.box_at(from.x, from.reach2), mode, tree.slack_at(from.x),
+                   [&](Slot j) {
+                       if (are_neighbours(tree.nodes(), from, j, mode)) f(j);
+                   });
 }
 
 /// The group around a place: that of the node, or the first whose box holds the place.
@@ -145,13 +145,14 @@ template <int Dim>
 QueryCandidates candidates_of(const NodeTree<Dim>& tree, const Asker<Dim>& from, SearchMode mode) {
     QueryCandidates out;
     auto group = tree.box_at(from.x, from.reach2);
-    for_candidates(tree, group, mode, [&](Slot j) { out.refine.push_back(j); });
+    const double slack = tree.slack_at(from.x);
+    for_candidates(tree, group, mode, slack, [&](Slot j) { out.refine.push_back(j); });
     if (from.self >= 0) out.refine.push_back(from.self);  // a blind node is not near itself
     if (const Offset leaf = group_of(tree, from); leaf >= 0) {
         tree.visit_leaf(leaf, [&](Slot j) { out.master.push_back(j); });
         group.add(tree.leaf_box(leaf));
     }
-    for_candidates(tree, group, mode, [&](Slot j) { out.coarse.push_back(j); });
+    for_candidates(tree, group, mode, slack, [&](Slot j) { out.coarse.push_back(j); });
     for (auto* list : {&out.master, &out.refine}) {
         *list = sorted(std::move(*list));
         list->erase(std::unique(list->begin(), list->end()), list->end());
@@ -171,21 +172,18 @@ double largest_extent(std::span<const NodeList> lists) {
 }  // namespace
 
 void NeighbourQuery::update(std::span<const NodeList> lists, const Domain& domain) {
-    if (lists.empty()) refuse("query: 0 node lists, must be at least 1");
+    check_lists("query", lists);
     const int dim = lists[0].dim();
-    for (const NodeList& list : lists)
-        if (list.dim() != dim)
-            refuse("query: node list \"" + list.name() + "\" has dim = " +
-                   std::to_string(list.dim()) + ", the first list has " + std::to_string(dim));
     domain.check(dim);
-    start_runtime();
     const double extent = largest_extent(lists);
-    if (dim == 1)
-        state_.reset(new State{dim, extent, domain, NodeTree<1>(lists, domain)});
-    else if (dim == 2)
-        state_.reset(new State{dim, extent, domain, NodeTree<2>(lists, domain)});
-    else
-        state_.reset(new State{dim, extent, domain, NodeTree<3>(lists, domain)});
+    run_kernels("query", [&] {
+        if (dim == 1)
+            state_.reset(new State{dim, extent, domain, NodeTree<1>(lists, domain)});
+        else if (dim == 2)
+            state_.reset(new State{dim, extent, domain, NodeTree<2>(lists, domain)});
+        else
+            state_.reset(new State{dim, extent, domain, NodeTree<3>(lists, domain)});
+    });
 }
 
 const NeighbourQuery::State& NeighbourQuery::built() const {

@@ -26,7 +26,7 @@ public:
         own_copies();
         order_ = detail::order_groups(nodes_);
         boxes_.gather(nodes_, order_);
-        slack_ = find_slack();
+        largest_ = largest_coordinate();
         leaf_of_.resize(static_cast<std::size_t>(nodes_.n));
         for (std::size_t p = 0; p < order_.slot.size(); ++p)
             if (order_.slot(p) >= 0)
@@ -35,13 +35,20 @@ public:
     }
 
     const SearchNodes<Dim>& nodes() const { return nodes_; }
-    double slack() const { return slack_; }
+    /// What folding, shifting and wrapping may round for a question about x: see
+    /// search/device/box.hpp.
+    double slack_at(const double* x) const {
+        if (!nodes_.periods.any) return 0;
+        double largest = largest_;
+        for (int d = 0; d < Dim; ++d) largest = std::max(largest, std::fabs(x[d]));
+        return 16 * std::numeric_limits<double>::epsilon() * largest;
+    }
     Offset leaf_of(Slot slot) const { return leaf_of_[static_cast<std::size_t>(slot)]; }
     Box leaf_box(Offset leaf) const { return box_of(boxes_.leaf(leaf)); }
 
     /// What is near in a mode: `own` reach counts in gather, that of the nodes found in scatter.
-    Nearness nearness(SearchMode mode) const {
-        return {nodes_.periods, slack_, mode != SearchMode::scatter, mode != SearchMode::gather};
+    Nearness nearness(SearchMode mode, double slack) const {
+        return {nodes_.periods, slack, mode != SearchMode::scatter, mode != SearchMode::gather};
     }
 
     /// f(slot) for all nodes of leaves whose boxes, and whose trees' boxes, may hold what is
@@ -101,14 +108,12 @@ private:
         copy(nodes_.H, storage_.H);
     }
 
-    /// What folding, shifting and wrapping may round: see search/device/box.hpp.
-    double find_slack() const {
-        if (!nodes_.periods.any) return 0;
+    double largest_coordinate() const {
         double largest = 0;
         for (int d = 0; d < Dim; ++d) largest = std::max(largest, nodes_.periods.length[d]);
         for (std::size_t k = 0; k < nodes_.positions.size(); ++k)
             largest = std::max(largest, std::fabs(nodes_.positions(k)));
-        return 16 * std::numeric_limits<double>::epsilon() * largest;
+        return largest;
     }
 
     PreparedStorage storage_;
@@ -116,7 +121,7 @@ private:
     detail::GroupOrder order_;
     detail::GroupBoxes<Dim> boxes_;
     std::vector<Offset> leaf_of_;  // by slot
-    double slack_ = 0;
+    double largest_ = 0;           // of positions and periods
 };
 
 }  // namespace connectivity

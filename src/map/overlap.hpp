@@ -33,7 +33,6 @@ public:
 
     /// Scratch memory held.
     Offset bytes() const;
-    void release() { *this = OverlapBuild(); }
 
 private:
     struct alignas(64) Worker {

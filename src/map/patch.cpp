@@ -194,6 +194,12 @@ void Patch::commit(MapLists lists, BuiltLists built) {
     if (built.overlap) std::swap(lists.overlap, overlap_);
     if (built.intersection) std::swap(lists.intersection, intersection_);
     if (built.by_key && renumbers_) std::swap(lists.key_order, key_order_);
+    // What the map has not, is of an older one.
+    if (!built.rows) rows_.clear();
+    if (!built.pairs) half_rows_.clear();
+    if (!built.overlap) overlap_.clear();
+    if (!built.intersection) intersection_.clear();
+    if (!built.by_key) key_order_.clear();
 }
 
 Offset Patch::bytes() const {

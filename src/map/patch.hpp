@@ -32,7 +32,6 @@ public:
     void commit(MapLists lists, BuiltLists built);
 
     Offset bytes() const;
-    void release() { *this = Patch(); }
 
 private:
     void patch_half_rows(const Renumbering& now, const MapLists& lists, BuiltLists built);

@@ -99,8 +99,9 @@ void GroupSearch<Dim>::run(const SearchNodes<Dim>& nodes, const SlotLayout& layo
     find_rows(shared, layout, request, products);
     count_work(report);
     store_.transfer(products);
-    entries_before_ = std::max(request.rows ? products.rows.n_values() : 0,
-                               request.half_rows ? products.halves.n_values() : 0);
+    if (request.rows || request.half_rows)
+        entries_before_ = std::max(request.rows ? products.rows.n_values() : 0,
+                                   request.half_rows ? products.halves.n_values() : 0);
 }
 
 /// One sweep where the rows are about as many as expected. Where they are more, or might not fit

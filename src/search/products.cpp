@@ -47,13 +47,14 @@ void Products::abandon() {
 
 Offset Products::prepare(const Counts& counts, const SlotLayout& layout, const Budget& budget) {
     Offset needed = 0;
-    if (counts.has_rows)
-        needed += rows.prepare(layout.n_rows() * layout.n_lists(),
-                               [c = counts.rows](Offset i) { return c[i]; });
-    if (counts.has_halves)
-        needed += halves.prepare(layout.n_slots(), [c = counts.halves](Offset i) { return c[i]; });
-    if (!budget.allows(needed)) throw_over_budget(counts, layout, needed, budget.allowed());
     try {
+        if (counts.has_rows)
+            needed += rows.prepare(layout.n_rows() * layout.n_lists(),
+                                   [c = counts.rows](Offset i) { return c[i]; });
+        if (counts.has_halves)
+            needed +=
+                halves.prepare(layout.n_slots(), [c = counts.halves](Offset i) { return c[i]; });
+        if (!budget.allows(needed)) throw_over_budget(counts, layout, needed, budget.allowed());
         if (counts.has_rows) rows.reserve();
         if (counts.has_halves) halves.reserve();
     } catch (...) {

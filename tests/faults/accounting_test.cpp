@@ -105,5 +105,25 @@ TEST(Accounting, the_sum_of_the_report_is_what_the_allocator_gave) {
     }
 }
 
+TEST(Accounting, other_dimensions_leave_nothing_behind) {
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "the address sanitizer has an allocator of its own";
+#endif
+    start_runtime({.n_threads = 1});
+    for (const unsigned flags : {3u, 23u, 3u}) {
+        const double before = bytes_in_use();
+        ConnectivityMap map;
+        double held = 0;
+        for (int dim = 1; dim <= 3; ++dim) {
+            const Case c = random_case(7, {dim, false, 900, 800});
+            MapOptions options = options_of(flags);
+            map.rebuild(node_lists(c), options);
+            held = bytes_in_use() - before;
+        }
+        const auto reported = static_cast<double>(map.report().total_bytes());
+        EXPECT_NEAR(reported, held, 0.05 * held + 262144) << "flags " << flags;
+    }
+}
+
 }  // namespace
 }  // namespace connectivity::test

@@ -131,13 +131,5 @@ TEST_F(Overlap, until_commit_the_old_rows_stay) {
     EXPECT_EQ(segments(rows_), expected(second));
 }
 
-TEST_F(Overlap, released_memory_is_gone) {
-    Random random(1);
-    build(LabelCase(cloud(500, 1, 0.1), Numbering::by_slot, random));
-    EXPECT_GT(build_.bytes(), 0);
-    build_.release();
-    EXPECT_LT(build_.bytes(), 64 << 10);
-}
-
 }  // namespace
 }  // namespace connectivity::test

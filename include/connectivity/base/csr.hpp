@@ -28,6 +28,11 @@ public:
     /// [n_values], host.
     ConstView<Slot> values() const { return Kokkos::subview(values_, range(n_values_)); }
 
+    /// The same without a count of holders, for look-ups that a counted handle would slow down.
+    /// Valid until the next change.
+    const Offset* offset_data() const { return offsets_.data(); }  ///< null before the first commit
+    const Slot* value_data() const { return values_.data(); }
+
     /// Bytes held, spare capacity included.
     Offset bytes() const;
 

@@ -7,7 +7,11 @@
 /// started Kokkos owns it.
 
 #include <functional>
+#include <new>
 #include <string>
+
+#include <connectivity/base/error.hpp>
+#include <connectivity/base/kokkos_shim.hpp>
 
 namespace connectivity {
 
@@ -30,6 +34,21 @@ bool runtime_is_running();
 
 /// Number of host threads that kernels use (0 before the start).
 int runtime_threads();
+
+/// Runs body() where Kokkos may launch kernels, started if need be, also for a caller inside an
+/// OpenMP region or on a thread of its own. Throws what body does, Error{memory} for
+/// std::bad_alloc.
+template <class Body>
+void run_kernels(const std::string& what, const Body& body) {
+    shim::outside_parallel_region([&] {
+        start_runtime();
+        try {
+            body();
+        } catch (const std::bad_alloc&) {
+            throw Error(Status::memory, what + ": out of memory");
+        }
+    });
+}
 
 /// Called right before Kokkos is finalised, by whomever; lets go of every View a registry still
 /// holds.

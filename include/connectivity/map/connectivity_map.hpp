@@ -54,10 +54,11 @@ public:
     /// fields handed over keep the values of surviving pairs; fields must belong to the present
     /// pair list, and all others go stale.
     ///
-    /// Two differences to a rebuild: overlap forgets dropped nodes but not what they witnessed,
-    /// and key order keeps the keys of the last rebuild. With a skin the next needs_rebuild is
-    /// true. Throws Error: not_built, argument (list, node, value), stale, memory; the map and the
-    /// fields are then as before.
+    /// Three differences to a rebuild: overlap forgets dropped nodes but not what they witnessed,
+    /// key order keeps the keys of the last rebuild, and where pairs change their orientation a
+    /// node whose foot is just on the end of a segment stays in, or out of, its intersection. With
+    /// a skin the next needs_rebuild is true. Throws Error: not_built, argument (list, node,
+    /// value), stale, memory; the map and the fields are then as before.
     void patch(std::span<const Slot> keep, std::span<const Slot> old2new,
                std::span<PairFieldBase* const> fields = {});
 
@@ -148,6 +149,10 @@ public:
     /// Throws Error{not_built}, Error{argument} for a list that is none.
     View<Slot> spatial_order(int list) const;
 
+    /// Since the last rebuild: were nodes dropped or renumbered, were pairs removed?
+    bool is_patched() const { return patched_; }
+    bool has_removed_pairs() const { return removed_pairs_; }
+
     const Report& report() const { return report_; }
 
 private:
@@ -178,7 +183,7 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
     Generation generation_ = 0;
-    bool traversing_ = false;
+    bool traversing_ = false, patched_ = false, removed_pairs_ = false;
     SlotLayout layout_;
     std::vector<std::string> list_names_;
     std::vector<Offset> n_internal_;
@@ -187,7 +192,8 @@ private:
     Csr rows_{"map/rows"}, overlap_{"map/overlap"}, intersection_{"map/intersection"};
     NodePairList pairs_;
     KeyOrder key_order_;
-    ConstView<Slot> order_;  // spatial order
+    ConstView<Slot> order_;   // spatial order
+    Offset order_bytes_ = 0;  // of the search's own
     Report report_;
     ReuseCounts reuse_;
 };

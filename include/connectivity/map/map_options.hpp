@@ -25,8 +25,8 @@ enum class IntersectionKind {
     in_segment  ///< those whose perpendicular foot on the line between the two lies between them
 };
 
-/// true: the pair of these slots is left out. Called with i < j from several threads at once; must
-/// not throw.
+/// true: the pair of these slots is left out. Called with i < j from several threads at once, more
+/// than once for a pair: it must answer the same each time, and not throw.
 using PairPredicate = std::function<bool(Slot i, Slot j)>;
 
 struct MapOptions {

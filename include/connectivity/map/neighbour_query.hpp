@@ -76,7 +76,8 @@ public:
                                  double distance, SearchMode mode = SearchMode::gather) const;
 
     /// By how many periods the nearest image of node j is shifted on each axis, seen from node i:
-    /// x_j + shift * length is the place where i sees j. Whole numbers, 0 on open axes. Throws Error{argument}.
+    /// x_j + shift * length is the place where i sees j. Whole numbers, 0 on open axes. Throws
+    /// Error{argument}.
     std::array<double, 3> periodic_shift(Slot i, Slot j) const;
 
 private:

@@ -19,6 +19,33 @@ namespace connectivity {
 using Stamp = std::uint64_t;
 
 class NodePairList {
+    /// Pairs by their nodes, on raw pointers.
+    struct Lookup {
+        const Offset* offsets;
+        const Slot* j;
+        const Slot* ranks;  ///< null in slot order
+        Offset n_slots;
+
+        KOKKOS_INLINE_FUNCTION Slot half_row(Slot slot) const {
+            return ranks != nullptr ? ranks[slot] : slot;
+        }
+        /// Number of the pair {a, b}, -1 if there is none.
+        KOKKOS_INLINE_FUNCTION Offset operator()(Slot a, Slot b) const {
+            if (a < 0 || b < 0 || a >= n_slots || b >= n_slots) return -1;
+            const Slot row_a = half_row(a), row_b = half_row(b);
+            const Slot lo = row_a < row_b ? row_a : row_b, hi = row_a < row_b ? row_b : row_a;
+            Offset begin = offsets[lo], end = offsets[lo + 1];
+            while (begin < end) {
+                const Offset middle = begin + (end - begin) / 2;
+                if (half_row(j[middle]) < hi)
+                    begin = middle + 1;
+                else
+                    end = middle;
+            }
+            return begin < offsets[lo + 1] && half_row(j[begin]) == hi ? begin : -1;
+        }
+    };
+
 public:
     /// Trivially copyable; captured by value in kernels.
     template <class Space = HostMemory>
@@ -59,18 +86,8 @@ public:
         /// Number of the pair {a, b}, in either orientation; -1 if there is none. Binary search in
         /// a half row.
         KOKKOS_INLINE_FUNCTION Offset find(Slot a, Slot b) const {
-            if (a < 0 || b < 0 || a >= n_slots() || b >= n_slots()) return -1;
-            const Slot row_a = half_row(a), row_b = half_row(b);
-            const Slot lo = row_a < row_b ? row_a : row_b, hi = row_a < row_b ? row_b : row_a;
-            Offset begin = offsets(lo), end = offsets(lo + 1);
-            while (begin < end) {
-                const Offset middle = begin + (end - begin) / 2;
-                if (half_row(j(middle)) < hi)
-                    begin = middle + 1;
-                else
-                    end = middle;
-            }
-            return begin < offsets(lo + 1) && half_row(j(begin)) == hi ? begin : -1;
+            return Lookup{offsets.data(), j.data(), ranks.extent(0) > 0 ? ranks.data() : nullptr,
+                          n_slots()}(a, b);
         }
 
     private:
@@ -99,8 +116,11 @@ public:
     /// Host view; holds the storage, so it stays valid and unchanged through rebuilds.
     View<> view() const;
 
-    /// Number of the pair {a, b}, in either orientation; -1 if there is none. In loops, ask a view.
-    Offset find(Slot a, Slot b) const { return view().find(a, b); }
+    /// Number of the pair {a, b}, in either orientation; -1 if there is none.
+    Offset find(Slot a, Slot b) const {
+        return Lookup{half_rows_.offset_data(), half_rows_.value_data(), ranks_.data(),
+                      half_rows_.n_rows()}(a, b);
+    }
 
     /// Host view with i expanded: 4 more bytes a pair, made once per generation. Throws
     /// Error{memory}.

@@ -20,8 +20,10 @@ struct MapCheck {
 
 /// All checks that apply to what the map holds. `lists` are the nodes that it was built from, or
 /// what a patch left of them. Laws of geometry are checked in the modes of the last rebuild; pairs
-/// that its predicate or interactions leave out are expected to be absent. Throws Error: not_built,
-/// argument (other lists), memory, and what a rebuild throws for bad nodes.
+/// that its predicate or interactions leave out are expected to be absent. What cannot be told any
+/// more is not checked: after a patch whether overlap misses anybody, for witnesses may be gone;
+/// after a patch with a predicate, and after remove_pairs, whether rows do. Throws Error:
+/// not_built, argument (other lists), memory, and what a rebuild throws for bad nodes.
 std::vector<MapCheck> validate(const ConnectivityMap& map, std::span<const NodeList> lists);
 
 /// Did all pass? Otherwise `text`, if given, says which did not, and where.
