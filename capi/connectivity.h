@@ -24,7 +24,8 @@
  * Callbacks must not throw, jump out or fork; nor call this library but for conn_set_error,
  * conn_last_error, texts and versions (CONN_E_CALLBACK); nor wait for a thread that does.
  *
- * Hosts include this header alone. Its parts are files beside it, each complete in itself.
+ * Hosts include this header alone. Its parts are files beside it, each complete in itself;
+ * connectivity_query.h is not one of them: it is experimental, and for hosts that ask for it.
  */
 #ifndef CONNECTIVITY_H
 #define CONNECTIVITY_H

@@ -12,18 +12,6 @@ using namespace connectivity::capi;
 
 namespace {
 
-SearchMode read_mode(std::int32_t mode) {
-    switch (mode) {
-        case CONN_GATHER: return SearchMode::gather;
-        case CONN_SCATTER: return SearchMode::scatter;
-        case CONN_GATHER_SCATTER: return SearchMode::gather_scatter;
-        default:
-            throw Error(Status::argument,
-                        "options->mode = " + std::to_string(mode) +
-                            ", must be CONN_GATHER, CONN_SCATTER or CONN_GATHER_SCATTER");
-    }
-}
-
 SearchMethod read_method(std::int32_t method) {
     switch (method) {
         case CONN_METHOD_AUTOMATIC: return SearchMethod::automatic;
@@ -72,13 +60,15 @@ void check_flags(const std::uint8_t* flags, std::int64_t n, std::int64_t limit,
                                               std::to_string(flags[k]) + ", must be 0 or 1");
 }
 
-void read_domain(const conn_map_options& o, Domain& domain) {
+Domain domain_of(const conn_map_options& o, const std::string& name) {
+    Domain domain;
     for (int d = 0; d < 3; ++d) {
         domain.periodic[d] =
-            read_flag(o.periodic[d], "options->periodic[" + std::to_string(d) + "]");
+            read_flag(o.periodic[d], name + "->periodic[" + std::to_string(d) + "]");
         domain.lo[d] = o.box_lo[d];
         domain.hi[d] = o.box_hi[d];
     }
+    return domain;
 }
 
 void read_arrays(const conn_map_options& o, MapOptions& options) {
@@ -111,6 +101,23 @@ void check_combination(const MapOptions& options) {
 
 }  // namespace
 
+SearchMode connectivity::capi::read_mode(std::int32_t mode, const std::string& name) {
+    switch (mode) {
+        case CONN_GATHER: return SearchMode::gather;
+        case CONN_SCATTER: return SearchMode::scatter;
+        case CONN_GATHER_SCATTER: return SearchMode::gather_scatter;
+        default:
+            throw Error(Status::argument,
+                        name + " = " + std::to_string(mode) +
+                            ", must be CONN_GATHER, CONN_SCATTER or CONN_GATHER_SCATTER");
+    }
+}
+
+Domain connectivity::capi::read_domain(const conn_map_options* given, const char* name) {
+    if (given == nullptr) return {};
+    return domain_of(read_struct(given, conn_map_options CONN_MAP_OPTIONS_INIT, name), name);
+}
+
 MapOptions connectivity::capi::read_options(const conn_map_options* given) {
     conn_map_options o = CONN_MAP_OPTIONS_INIT;
     if (given != nullptr) o = read_struct(given, o, "options");
@@ -122,9 +129,9 @@ MapOptions connectivity::capi::read_options(const conn_map_options* given) {
     options.overlap = read_flag(o.overlap, "options->overlap");
     options.intersection = read_intersection(o.intersection);
     options.order = read_order(o.order);
-    options.mode = read_mode(o.mode);
+    options.mode = read_mode(o.mode, "options->mode");
     options.method = read_method(o.method);
-    read_domain(o, options.domain);
+    options.domain = domain_of(o, "options");
     if (o.reserved != 0 || o.reserved_2 != 0)
         throw Error(Status::unsupported, std::string("options->reserved") +
                                              (o.reserved != 0 ? "" : "_2") + " is set, must be 0");

@@ -9,6 +9,7 @@
 
 #include <connectivity/boundary/boundaries.hpp>
 #include <connectivity/map/connectivity_map.hpp>
+#include <connectivity/map/neighbour_query.hpp>
 #include <connectivity/map/row_pairs.hpp>
 
 #include "connectivity.h"
@@ -67,7 +68,21 @@ struct conn_boundaries final : connectivity::capi::Handle {
     void drop_views() noexcept override { boundaries.reset(); }
 };
 
+struct conn_query final : connectivity::capi::Handle {
+    connectivity::NeighbourQuery query;
+
+    const char* kind() const noexcept override { return "a query"; }
+    void drop_views() noexcept override { query = {}; }
+};
+
 namespace connectivity::capi {
+
+/// One of CONN_GATHER, ...; `name` is the argument's. Throws Error{argument}.
+SearchMode read_mode(std::int32_t mode, const std::string& name);
+
+/// Periodic axes and box alone; NULL means open. Throws Error{argument | struct_size |
+/// unsupported}.
+Domain read_domain(const conn_map_options* given, const char* name);
 
 /// Checked and copied; NULL means the defaults. Throws Error{argument | null | struct_size |
 /// unsupported | memory}.

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # What libconnectivity.so shows to others: the functions of capi/symbols.txt and no more, and no
-# dependency on Kokkos, MPI or HDF5.
-# Usage: exports.sh symbols NM LIBRARY SYMBOLS_TXT | exports.sh needs LIBRARY
+# dependency on Kokkos, MPI or HDF5. Functions of experimental headers are listed, too, but
+# connectivity.h with its parts has at most 60.
+# Usage: exports.sh symbols NM LIBRARY SYMBOLS_TXT | exports.sh limit CAPI | exports.sh needs LIBRARY
 set -eu
 export LC_ALL=C
 
@@ -15,6 +16,12 @@ symbols)
         sort > "$work/found"
     sed 's/^/T /' "$4" | sort > "$work/expected"
     diff "$work/expected" "$work/found"
+    ;;
+limit)
+    parts=$(sed -n 's/^#include "\(.*\)"$/\1/p' "$2/connectivity.h")
+    n=$(cd "$2" && cat $parts | grep -c '^CONN_API ')
+    echo "connectivity.h has $n functions"
+    test "$n" -ge 1 && test "$n" -le 60
     ;;
 needs)
     command -v ldd > /dev/null || { echo "no ldd on this machine"; exit 77; }

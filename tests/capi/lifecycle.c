@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <connectivity.h>
+#include <connectivity_query.h>
 
 enum { side = 12, n = side * side, n_pairs = 2 * side * (side - 1) };
 
@@ -28,6 +28,7 @@ typedef struct host {
     conn_map *map, *with_ghosts;
     conn_boundaries* boundaries;
     conn_pair_field* field;
+    conn_query* query;
     conn_rows_view rows;
     conn_pairs_view pairs;
     conn_intersection_view common;
@@ -65,6 +66,8 @@ static void start_ghosts(host* h) {
             CONN_OK);
     REQUIRE(conn_map_intersection_acquire(h->with_ghosts, CONN_SPACE_HOST, &h->common) == CONN_OK);
     REQUIRE(h->common.n_pairs > n_pairs);
+    REQUIRE(conn_query_create(h->context, &h->query) == CONN_OK);
+    REQUIRE(conn_query_update(h->query, lists, 1, NULL) == CONN_OK);
     REQUIRE(conn_pair_field_create(h->with_ghosts, 1, &h->field) == CONN_OK);
     REQUIRE(conn_pair_field_sum(h->field, h->with_ghosts, CONN_SYMMETRIC, CONN_SUM_DETERMINISTIC,
                                 sums, 2 * n) == CONN_OK);
@@ -72,6 +75,7 @@ static void start_ghosts(host* h) {
 
 static host start(int n_threads) {
     host h = {NULL,
+              NULL,
               NULL,
               NULL,
               NULL,
@@ -104,6 +108,7 @@ static void finish(host* h) {
     REQUIRE(conn_map_rows_release(&h->rows) == CONN_OK && h->rows.slots == NULL);
     REQUIRE(conn_map_pairs_release(&h->pairs) == CONN_OK && h->pairs.j == NULL);
     REQUIRE(conn_map_intersection_release(&h->common) == CONN_OK && h->common.slots == NULL);
+    REQUIRE(conn_query_destroy(&h->query) == CONN_OK && h->query == NULL);
     REQUIRE(conn_pair_field_destroy(&h->field) == CONN_OK && h->field == NULL);
     REQUIRE(conn_boundaries_destroy(&h->boundaries) == CONN_OK && h->boundaries == NULL);
     REQUIRE(conn_map_destroy(&h->with_ghosts) == CONN_OK && h->with_ghosts == NULL);
@@ -115,6 +120,8 @@ static void finish(host* h) {
 /* Every kind of call says the same. */
 static void require_all(host* h, conn_status expected) {
     uint64_t generation = 0;
+    int64_t count = 0;
+    int32_t n_failed = 0;
     conn_context* context = NULL;
     conn_map* map = NULL;
     conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
@@ -125,6 +132,9 @@ static void require_all(host* h, conn_status expected) {
     REQUIRE(strstr(conn_last_error(), "conn_map_rebuild: ") != NULL);
     REQUIRE(conn_map_generation(h->map, &generation) == expected);
     REQUIRE(conn_map_pairs_acquire(h->map, CONN_SPACE_HOST, 0, &pairs) == expected);
+    REQUIRE(conn_map_validate(h->map, &h->nodes, 1, &n_failed, NULL, 0, NULL) == expected);
+    REQUIRE(conn_query_update(h->query, &h->nodes, 1, NULL) == expected);
+    REQUIRE(conn_query_neighbours(h->query, 0, CONN_GATHER, NULL, 0, &count) == expected);
     REQUIRE(conn_pair_field_reset(h->field, h->with_ghosts) == expected);
     REQUIRE(conn_map_set_coupling(h->map, NULL, 0) == expected);
     REQUIRE(conn_boundaries_update(h->boundaries, h->map, &h->nodes, 1, CONN_GHOSTS_CULL) ==
