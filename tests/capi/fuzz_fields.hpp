@@ -126,7 +126,7 @@ private:
             ++n_summed;
     }
     void add_boundary() {
-        double planes[8];
+        double planes[12];  // two planes in 3D: a point and a normal each
         for (double& value : planes)
             value = random_.pick({0.0, 1.0, -1.0, 1e300, -2.5, std::nan("")});
         const char* names[] = {"x", "", nullptr, "wall"};
