@@ -1,40 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A reference case of culling, decided by hand: flags, new ids, boundaries afterwards.
 
-#include <fstream>
-
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <boundary/clouds.hpp>
+#include <support/reference_cases.hpp>
 
 namespace connectivity::test {
 namespace {
 
 using nlohmann::json;
 
-const std::string file_name = CONNECTIVITY_SOURCE_DIR "/tests/support/data/cull_case.json";
-
 class CullCase : public ::testing::Test {
 protected:
-    CullCase() {
-        std::ifstream file(file_name);
-        EXPECT_TRUE(file) << file_name;
-        source_ = json::parse(file)["cases"][0];
-        case_.dim = 2;
-        for (const json& list : source_["nodeLists"]) {
-            ListData data;
-            data.n_internal = list["nInternal"].get<Offset>();
-            data.extent = list["kernelExtent"].get<double>();
-            data.tensor = true;
-            for (const json& x : list["positions"])
-                for (const json& value : x) data.x.push_back(value.get<double>());
-            for (const json& H : list["H"])
-                for (const json& value : H) data.H.push_back(value.get<double>());
-            case_.lists.push_back(data);
-        }
-    }
-
     GhostLists ghosts() const {
         GhostLists ghosts;
         ghosts.reset({case_.lists[0].n_internal, case_.lists[1].n_internal});
@@ -88,8 +66,8 @@ protected:
         return all;
     }
 
-    json source_;
-    Case case_;
+    const json source_ = reference_case("c08");
+    const Case case_ = case_of(source_);
     ConnectivityMap map_;
 };
 

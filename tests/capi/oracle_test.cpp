@@ -3,8 +3,7 @@
 
 #include <fstream>
 
-#include <nlohmann/json.hpp>
-
+#include <support/reference_files.hpp>
 #include <support/shared_data.hpp>
 #include "capi_support.hpp"
 
@@ -15,13 +14,6 @@ using nlohmann::json;
 
 constexpr int all_methods[] = {CONN_METHOD_AUTOMATIC, CONN_METHOD_BRUTE, CONN_METHOD_CELLS,
                                CONN_METHOD_GROUPS, CONN_METHOD_DEVICE};
-
-std::vector<double> flat(const json& rows) {
-    std::vector<double> values;
-    for (const json& row : rows)
-        for (const json& value : row) values.push_back(value.get<double>());
-    return values;
-}
 
 std::vector<NodeSet> sets_of(const json& source) {
     std::vector<NodeSet> sets;
@@ -263,7 +255,7 @@ void check_file(std::ifstream& file) {
 }
 
 TEST(CapiOracle, every_list_is_the_exact_one) {
-    std::ifstream file(CONNECTIVITY_SOURCE_DIR "/tests/support/data/connectivity_cases.json");
+    std::ifstream file(reference_file);
     ASSERT_TRUE(file) << "tests/support/data/connectivity_cases.json is missing";
     check_file(file);
 }

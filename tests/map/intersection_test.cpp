@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of common neighbours equal their definition: of pairs and of any two nodes, all of them or
-// those between the two.
+// Rows of common neighbours of pairs equal their definition: all of them or those between the two.
 
 #include <gtest/gtest.h>
 
@@ -104,43 +103,6 @@ TYPED_TEST(Intersection, rows_of_random_cases_equal_the_definition) {
     }
 }
 
-TYPED_TEST(Intersection, any_two_nodes_have_one_whichever_comes_first) {
-    constexpr int dim = TypeParam::value;
-    for (std::uint64_t seed = 2000; seed < 2200; ++seed) {
-        Random random(seed);
-        const LabelCase c(all_rows_case(seed, dim, seed % 2 == 1, 60), Numbering::at_random,
-                          random);
-        if (c.sight().n() == 0) continue;
-        for (const bool in_segment : {false, true}) {
-            const Problem<dim> p(c, in_segment);
-            for (int trial = 0; trial < 40; ++trial) {
-                const Slot a = random.below(c.sight().n()), b = random.below(c.sight().n());
-                const auto row = intersection_of(p.input, a, b);
-                ASSERT_EQ(row, expected_row(c, p.labels.slot(a), p.labels.slot(b), in_segment))
-                    << c.source().text;
-                ASSERT_EQ(row, intersection_of(p.input, b, a)) << c.source().text;
-            }
-        }
-    }
-}
-
-TYPED_TEST(Intersection, the_union_holds_every_neighbour_of_either) {
-    constexpr int dim = TypeParam::value;
-    for (std::uint64_t seed = 3000; seed < 3100; ++seed) {
-        Random random(seed);
-        const LabelCase c(all_rows_case(seed, dim, false, 60), Numbering::at_random, random);
-        const OwnedRows rows = c.neighbours();
-        for (int trial = 0; trial < 40 && c.sight().n() > 0; ++trial) {
-            const Slot a = random.below(c.sight().n()), b = random.below(c.sight().n());
-            const Slot i = c.labels().slot(a), j = c.labels().slot(b);
-            std::vector<Slot> want;
-            for (Slot k = 0; k < c.sight().n(); ++k)
-                if (c.sight().neighbours(k, i) || c.sight().neighbours(k, j)) want.push_back(k);
-            ASSERT_EQ(union_of(rows.view(), c.labels(), a, b), c.by_label(want));
-        }
-    }
-}
-
 TYPED_TEST(Intersection, one_long_row_and_many_short_ones_equal_the_definition) {
     constexpr int dim = TypeParam::value;
     Random random(5);
@@ -168,17 +130,6 @@ TYPED_TEST(Intersection, a_change_of_units_changes_nothing) {
             p.positions[k] = std::ldexp(unscaled[k], exponent);
         this->check(p);
     }
-}
-
-TEST(IntersectionOf, coincident_ends_let_every_common_neighbour_pass) {
-    start_runtime();
-    Random random(1);
-    const LabelCase c(uniform_case(1, {0, 0, 0.5, -0.5, 2}, 0.5), Numbering::by_slot, random);
-    const Problem<1> p(c, true);
-    EXPECT_EQ(intersection_of(p.input, 0, 1), (std::vector<Slot>{0, 1, 2, 3}));
-    EXPECT_EQ(intersection_of(p.input, 0, 0), (std::vector<Slot>{0, 1, 2, 3}));
-    EXPECT_EQ(intersection_of(p.input, 0, 2), (std::vector<Slot>{0, 1, 2}));
-    EXPECT_EQ(intersection_of(p.input, 4, 4), (std::vector<Slot>{4}));
 }
 
 }  // namespace

@@ -3,15 +3,12 @@
 // Read by original ids, its lists are always those of the file.
 
 #include <algorithm>
-#include <fstream>
 #include <numeric>
-#include <stdexcept>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include <support/case.hpp>
 #include <support/random.hpp>
+#include <support/reference_cases.hpp>
 
 namespace connectivity::test {
 namespace {
@@ -20,30 +17,25 @@ using nlohmann::json;
 using Ids = std::vector<std::int64_t>;
 
 const json& reference() {
-    static const json found = [] {
-        std::ifstream file(CONNECTIVITY_SOURCE_DIR "/tests/support/data/connectivity_cases.json");
-        const json all = json::parse(file);
-        for (const json& source : all["cases"])
-            if (source["name"] == "c12a_domain_independent_base") return source;
-        throw std::runtime_error("the reference data has no case c12a");
-    }();
+    static const json found = reference_case("c12a");
     return found;
 }
 
 /// The case with node ids[k] of the file as node k; the first n_internal are no ghosts.
 Case stored_as(const Ids& ids, Offset n_internal) {
-    const json& list = reference()["nodeLists"][0];
-    Case c;
-    c.dim = reference()["dim"].get<int>();
-    c.lists.resize(1);
+    const Case original = case_of(reference());
+    const ListData& from = original.lists[0];
+    const auto dim = static_cast<std::size_t>(original.dim);
+    const std::size_t n_H = from.H.size() * dim / from.x.size();
+    Case c = original;
     ListData& nodes = c.lists[0];
-    nodes.tensor = true;
-    nodes.extent = list["kernelExtent"].get<double>();
     nodes.n_internal = n_internal;
-    for (const std::int64_t id : ids) {
-        const auto at = static_cast<std::size_t>(id);
-        for (const json& value : list["positions"][at]) nodes.x.push_back(value.get<double>());
-        for (const json& value : list["H"][at]) nodes.H.push_back(value.get<double>());
+    nodes.x.resize(ids.size() * dim);
+    nodes.H.resize(ids.size() * n_H);
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        const auto at = static_cast<std::size_t>(ids[k]);
+        std::copy_n(&from.x[at * dim], dim, &nodes.x[k * dim]);
+        std::copy_n(&from.H[at * n_H], n_H, &nodes.H[k * n_H]);
     }
     return c;
 }

@@ -5,44 +5,14 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include <support/case.hpp>
+#include <support/reference_cases.hpp>
 #include <support/shared_data.hpp>
 
 namespace connectivity::test {
 namespace {
 
 using nlohmann::json;
-
-const std::string own_file = CONNECTIVITY_SOURCE_DIR "/tests/support/data/connectivity_cases.json";
-
-std::vector<double> flat(const json& rows) {
-    std::vector<double> values;
-    for (const json& row : rows)
-        for (const json& value : row) values.push_back(value.get<double>());
-    return values;
-}
-
-Case case_of(const json& source) {
-    Case c;
-    c.dim = source["dim"].get<int>();
-    c.text = source["name"].get<std::string>();
-    for (const json& list : source["nodeLists"]) {
-        ListData data;
-        data.name = list["name"].get<std::string>();
-        data.n_internal = list["nInternal"].get<Offset>();
-        data.extent = list["kernelExtent"].get<double>();
-        data.x = flat(list["positions"]);
-        data.H = flat(list["H"]);
-        data.tensor = true;
-        c.lists.push_back(std::move(data));
-    }
-    const json& stored = source["expected"]["numStored"];
-    for (std::size_t k = 0; k < c.lists.size(); ++k)
-        c.ghost_rows = c.ghost_rows || stored[k].get<Offset>() != c.lists[k].n_internal;
-    return c;
-}
 
 /// Rows of a map in the shape of the file: [list][node][list] -> node ids.
 json rows_of(const ConnectivityMap& map, const RowsView<>& rows) {
@@ -225,8 +195,8 @@ void check_file(std::ifstream& file) {
 }
 
 TEST(OracleCases, every_list_is_the_exact_one) {
-    std::ifstream file(own_file);
-    ASSERT_TRUE(file) << own_file;
+    std::ifstream file(reference_file);
+    ASSERT_TRUE(file) << reference_file;
     check_file(file);
 }
 

@@ -3,9 +3,9 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <support/random_case.hpp>
+#include <support/reference_cases.hpp>
 
 #include <program/case_file.hpp>
 #include <program/run_program.hpp>
@@ -95,30 +95,6 @@ TEST(ResultOfPairs, command_is_kept_in_the_file) {
               "connectivity pairs '" + folder / "with space.h5" + "' --out " + folder / "out.h5");
 }
 
-std::vector<double> flat(const json& rows) {
-    std::vector<double> values;
-    for (const json& row : rows)
-        for (const json& value : row) values.push_back(value.get<double>());
-    return values;
-}
-
-Case case_of(const json& source) {
-    Case c;
-    c.dim = source["dim"].get<int>();
-    c.text = source["name"].get<std::string>();
-    for (const json& list : source["nodeLists"]) {
-        ListData data;
-        data.name = list["name"].get<std::string>();
-        data.n_internal = list["nInternal"].get<Offset>();
-        data.extent = list["kernelExtent"].get<double>();
-        data.x = flat(list["positions"]);
-        data.H = flat(list["H"]);
-        data.tensor = true;
-        c.lists.push_back(std::move(data));
-    }
-    return c;
-}
-
 /// Rows and pairs of a case as the reference has them, in slots.
 Expected expected_of(const json& source) {
     const auto offsets = source["offsets"].get<std::vector<Offset>>();
@@ -148,7 +124,7 @@ Expected expected_of(const json& source) {
 
 TEST(ResultOfPairs, reference_cases_are_met) {
     std::ifstream in(shared_data("oracle/connectivity_cases.json"));
-    if (!in) in.open(CONNECTIVITY_SOURCE_DIR "/tests/support/data/connectivity_cases.json");
+    if (!in) in.open(reference_file);
     if (!in) GTEST_SKIP() << "the reference cases are not here";
     const json reference = json::parse(in);
     int found = 0;
