@@ -137,28 +137,35 @@ void DerivedBuild<Dim>::search_rows(const DerivedRequest<Dim>& request, const La
                                options.method,
                                options.budget,
                                near_order_.size() > 0};
-    search.run(nodes_, layout_, wanted, rows_, half_rows_, report);
+    const bool searches = wanted.rows || wanted.half_rows;
+    if (searches) search.run(nodes_, layout_, wanted, rows_, half_rows_, report);
     if (wanted.rows) leave_out(filter, labels, rows_, layout_.n_lists());
     if (wanted.half_rows) leave_out(filter, labels, half_rows_, 0);
-    if (options.overlap && !uniform_) search_one_sided(request, labels, search, report);
+    if (options.overlap && !uniform_)
+        search_one_sided(request, labels, wanted.ordered || searches, search, report);
 }
 
-/// Who is seen by a node and who sees it. The search has just ordered these nodes.
+/// Who is seen by a node and who sees it. ordered: the search has just ordered these nodes.
 template <int Dim>
 void DerivedBuild<Dim>::search_one_sided(const DerivedRequest<Dim>& request, const Labels& labels,
-                                         Search<Dim>& search, Report& report) {
+                                         bool ordered, Search<Dim>& search, Report& report) {
     const PairFilter filter(request.layout, request.options);
     const Stopwatch watch;
     Csr none("map/derived/none");
     Report own;
+    bool keeps_order = ordered;
     for (auto [mode, list] :
          {std::pair{SearchMode::gather, &gather_}, std::pair{SearchMode::scatter, &scatter_}}) {
         const SearchRequest wanted{
-            true, false, mode, request.options.method, request.options.budget, true};
+            true, false, mode, request.options.method, request.options.budget, keeps_order};
         search.run(nodes_, layout_, wanted, *list, none, own);
         leave_out(filter, labels, *list, 1);
+        keeps_order = true;
     }
-    for (const char* held : {"order", "scratch"}) report.entry(held).bytes = own.entry(held).bytes;
+    for (const char* held : {"order", "scratch"}) {
+        if (!ordered) report.entry(held) = own.entry(held);
+        report.entry(held).bytes = own.entry(held).bytes;
+    }
     report.entry("derived").ms += watch.ms();
 }
 

@@ -53,7 +53,7 @@ private:
     ConstView<T> in_order(const ConstView<T>& in, int n_components, View<T>& storage) const;
     void search_rows(const DerivedRequest<Dim>& request, const Labels& labels, Search<Dim>& search,
                      Report& report);
-    void search_one_sided(const DerivedRequest<Dim>& request, const Labels& labels,
+    void search_one_sided(const DerivedRequest<Dim>& request, const Labels& labels, bool ordered,
                           Search<Dim>& search, Report& report);
     void leave_out(const PairFilter& filter, const Labels& labels, Csr& list, int n_segments);
     void count_relabelled(const DerivedRequest<Dim>& request, const Labels& labels, MapLists lists);

@@ -108,29 +108,8 @@ Offset IntersectionBuild<Dim>::bytes() const {
     return sum;
 }
 
-template <int Dim>
-std::vector<Slot> intersection_of(const IntersectionInput<Dim>& input, Slot a, Slot b) {
-    if (a > b) std::swap(a, b);
-    std::vector<Slot> row;
-    detail::SegmentsFrom<Dim> segments;
-    detail::common_row(input, a, b, row, segments);
-    for (Slot& label : row) label = input.labels.slot(label);
-    return row;
-}
-
-std::vector<Slot> union_of(const LabelRows& rows, const Labels& labels, Slot a, Slot b) {
-    const auto row_a = rows[a], row_b = rows[b];
-    std::vector<Slot> row;
-    std::set_union(row_a.begin(), row_a.end(), row_b.begin(), row_b.end(), std::back_inserter(row));
-    for (Slot& label : row) label = labels.slot(label);
-    return row;
-}
-
 template class IntersectionBuild<1>;
 template class IntersectionBuild<2>;
 template class IntersectionBuild<3>;
-template std::vector<Slot> intersection_of<1>(const IntersectionInput<1>&, Slot, Slot);
-template std::vector<Slot> intersection_of<2>(const IntersectionInput<2>&, Slot, Slot);
-template std::vector<Slot> intersection_of<3>(const IntersectionInput<3>&, Slot, Slot);
 
 }  // namespace connectivity

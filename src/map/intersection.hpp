@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// Common neighbours of the two nodes of every pair, and of any two nodes.
+/// Common neighbours of the two nodes of every pair.
 ///
 /// The row of pair (a, b) holds a, b and their common neighbours: all of them, or those between the
 /// two (closed slab test, see segment.hpp). Source: the intersection connectivity of Spheral's
@@ -49,15 +49,5 @@ private:
 extern template class IntersectionBuild<1>;
 extern template class IntersectionBuild<2>;
 extern template class IntersectionBuild<3>;
-
-/// The intersection of the rows of any two labels, pair or not, both of them included once: slots,
-/// ascending by label. The same for (a, b) and (b, a), and what a pair's row holds. Throws
-/// std::bad_alloc.
-template <int Dim>
-std::vector<Slot> intersection_of(const IntersectionInput<Dim>& input, Slot a, Slot b);
-
-/// The union of the rows of any two labels: slots, ascending by label. Holds a and b if they are
-/// neighbours. Throws std::bad_alloc.
-std::vector<Slot> union_of(const LabelRows& rows, const Labels& labels, Slot a, Slot b);
 
 }  // namespace connectivity

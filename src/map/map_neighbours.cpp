@@ -96,7 +96,10 @@ std::vector<Slot> ConnectivityMap::common_neighbours(Slot a, Slot b,
         return static_cast<std::size_t>(std::lower_bound(slots.begin(), slots.end(), slot) -
                                         slots.begin());
     };
-    const std::size_t first = place(std::min(a, b)), second = place(std::max(a, b));
+    // The line runs as that of the pair would.
+    const bool by_key = options_.order == ListOrder::key;
+    const bool turned = by_key ? key_order_.ranks()[b] < key_order_.ranks()[a] : b < a;
+    const std::size_t first = place(turned ? b : a), second = place(turned ? a : b);
     const std::vector<double> x = positions_of(lists, layout_, slots);
     switch (dim_) {
         case 1: keep_between<1>(slots, first, second, x, options_.domain); break;

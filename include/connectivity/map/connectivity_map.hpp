@@ -95,8 +95,8 @@ public:
     /// of the search are kept and shared with rebuilds.
     void for_each_row(std::span<const NodeList> lists, const MapOptions& options, RowFunction f);
 
-    /// The same with half rows: each slot exactly once with its partners after it, as in pairs().
-    /// So every pair comes once. Throws Error{argument} for gather and scatter.
+    /// The same with half rows: each slot exactly once with its partners after it, as in pairs() in
+    /// slot order. So every pair comes once. Throws Error{argument} for gather and scatter.
     void for_each_half_row(std::span<const NodeList> lists, const MapOptions& options,
                            RowFunction f);
 
