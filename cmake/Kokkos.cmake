@@ -30,6 +30,13 @@ if(NOT TARGET Kokkos::kokkos)
         set(CONNECTIVITY_KOKKOS_ANSWER "${CONNECTIVITY_KOKKOS}:${Kokkos_DIR}" CACHE INTERNAL "")
     endif()
     find_package(Kokkos REQUIRED CONFIG)
+    if(NOT CONNECTIVITY_TOP_LEVEL)
+        # connectivity::cxx names Kokkos to targets of the project around this one, which sees only
+        # what is global. (find_package has an option for that from CMake 3.24 on.)
+        get_property(imported DIRECTORY PROPERTY IMPORTED_TARGETS)
+        list(FILTER imported INCLUDE REGEX "^(Kokkos|OpenMP|Threads)::")
+        set_property(TARGET ${imported} PROPERTY IMPORTED_GLOBAL TRUE)
+    endif()
 endif()
 message(STATUS
     "Kokkos ${Kokkos_VERSION} (${CONNECTIVITY_KOKKOS}; ${Kokkos_DEVICES}): ${Kokkos_DIR}")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Layers: each folder src/<layer> becomes the object library connectivity_<layer>. Together with
-# capi/ they are libconnectivity.so (only conn_* leaves it) and, for C++, libconnectivity.a.
+# capi/ they are libconnectivity.so (only conn_* leaves it) and libconnectivity.a (C++ and C).
 
 set(CONNECTIVITY_LAYERS "")
 set(CONNECTIVITY_WIDE_LAYERS "")
@@ -69,44 +69,55 @@ function(connectivity_layer layer)
     set(CONNECTIVITY_LAYERS ${CONNECTIVITY_LAYERS} ${target} PARENT_SCOPE)
 endfunction()
 
+# The C functions of capi/, as objects for both libraries.
+function(connectivity_c_interface)
+    file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/capi/*.cpp")
+    if(NOT sources)
+        return()
+    endif()
+    add_library(connectivity_capi OBJECT ${sources})
+    connectivity_target(connectivity_capi)
+    target_include_directories(connectivity_capi PRIVATE "${PROJECT_SOURCE_DIR}/capi"
+        "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
+    target_link_libraries(connectivity_capi PRIVATE Kokkos::kokkos Eigen3::Eigen)
+    target_compile_definitions(connectivity_capi PRIVATE CONNECTIVITY_VERSION="${PROJECT_VERSION}")
+    connectivity_precompile(connectivity_capi)
+endfunction()
+
 # The shared library exports the C functions of capi/ and nothing else. It is never unloaded
 # (nodelete): Kokkos and OpenMP keep threads that would run in unmapped code.
 function(connectivity_shared_library objects)
-    file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/capi/*.cpp")
-    file(GLOB map CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/capi/connectivity.map")
-    if(NOT sources OR NOT map)
-        return()
-    endif()
-    add_library(connectivity SHARED ${sources} ${objects})
+    set(map "${PROJECT_SOURCE_DIR}/capi/connectivity.map")
+    add_library(connectivity SHARED ${objects})
+    add_library(connectivity::connectivity ALIAS connectivity)
     connectivity_target(connectivity)
-    target_include_directories(connectivity PUBLIC "${PROJECT_SOURCE_DIR}/capi"
-        "${PROJECT_SOURCE_DIR}/include" PRIVATE "${PROJECT_SOURCE_DIR}/src")
-    target_link_libraries(connectivity PRIVATE Kokkos::kokkos Eigen3::Eigen)
-    target_compile_definitions(connectivity PRIVATE CONNECTIVITY_VERSION="${PROJECT_VERSION}")
-    connectivity_precompile(connectivity)
+    target_include_directories(connectivity PUBLIC
+        "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/capi;${PROJECT_SOURCE_DIR}/include>")
+    target_link_libraries(connectivity PRIVATE Kokkos::kokkos)
     target_link_options(connectivity PRIVATE "LINKER:--version-script=${map}"
         LINKER:-z,nodelete LINKER:-z,defs LINKER:-Bsymbolic-functions)
     set_target_properties(connectivity PROPERTIES VERSION ${PROJECT_VERSION}
-        SOVERSION ${PROJECT_VERSION_MAJOR} LINK_DEPENDS "${map}"
-        LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+        SOVERSION ${PROJECT_VERSION_MAJOR} LINK_DEPENDS "${map}" LINKER_LANGUAGE CXX
+        LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}" INSTALL_RPATH_USE_LINK_PATH ON)
 endfunction()
 
-# Makes libconnectivity.so and libconnectivity.a of the layers added so far.
+# Makes libconnectivity.so and libconnectivity.a of the layers added so far. The archive is for C++,
+# and holds the C functions, too, for hosts that link everything statically.
 function(connectivity_libraries)
-    if(NOT CONNECTIVITY_LAYERS)
-        return()
-    endif()
+    connectivity_c_interface()
     set(objects "")
-    foreach(layer IN LISTS CONNECTIVITY_LAYERS)
-        list(APPEND objects $<TARGET_OBJECTS:${layer}>)
+    foreach(target IN LISTS CONNECTIVITY_LAYERS ITEMS connectivity_capi)
+        list(APPEND objects $<TARGET_OBJECTS:${target}>)
     endforeach()
     connectivity_shared_library("${objects}")
     add_library(connectivity_static STATIC ${objects})
+    add_library(connectivity::cxx ALIAS connectivity_static)
     set_target_properties(connectivity_static PROPERTIES OUTPUT_NAME connectivity
-        LINKER_LANGUAGE CXX ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
-    target_include_directories(connectivity_static PUBLIC "${PROJECT_SOURCE_DIR}/include")
+        LINKER_LANGUAGE CXX ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}" EXPORT_NAME cxx)
+    target_include_directories(connectivity_static PUBLIC
+        "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>")
     target_compile_features(connectivity_static PUBLIC cxx_std_20)
-    target_link_libraries(connectivity_static PUBLIC Kokkos::kokkos Eigen3::Eigen)
+    target_link_libraries(connectivity_static PUBLIC Kokkos::kokkos)
     if(CONNECTIVITY_SANITIZE)
         target_link_options(connectivity_static PUBLIC -fsanitize=address,undefined)
     endif()
