@@ -7,6 +7,7 @@
 #include "contestants.hpp"
 #include "host_step.hpp"
 #include "pair_sums.hpp"
+#include "peers/peer.hpp"
 #include "yardstick.hpp"
 
 namespace connectivity::bench {
@@ -22,7 +23,8 @@ bool fits(const std::string& variant, const std::string& form) {
 
 /// Adds a group for both numbers of threads: all contestants, then variants of ours.
 void add(std::vector<CaseName>& cases, CaseName c, const Names& forms, const Names& variants) {
-    Names whos = contestants();
+    Names whos = {"ours"};
+    for (const Peer& peer : peers()) whos.push_back(peer.name);
     const bool plain = c.size.empty() && c.workload[0] == 'W';
     if (plain && yardstick_is_set()) whos.emplace_back("yardstick");
     for (const std::string& form : forms)
@@ -30,8 +32,8 @@ void add(std::vector<CaseName>& cases, CaseName c, const Names& forms, const Nam
             c.form = form, c.threads = threads, c.variant.clear();
             for (const std::string& who : whos) {
                 c.who = who;
-                if (who != "nanoflann" || nanoflann_takes_part(c.workload, form))
-                    cases.push_back(c);
+                const Peer* const peer = peer_named(who);
+                if (peer == nullptr || peer->takes_part(c)) cases.push_back(c);
             }
             c.who = "ours";
             for (const std::string& variant : variants) {

@@ -4,7 +4,7 @@
 
     python3 bench/charts.py record.json [more.json ...] --out DIR
 
-P7 time per node against size, P8 search methods on hard scenes, P9 reuse of pairs with a skin, P13 price of deterministic sums, P16 price of features, P17 price of checking the input, P18 small builds.
+P7 time per node against size, and contestants side by side, P8 search methods on hard scenes, P9 reuse of pairs with a skin, P13 price of deterministic sums, P16 price of features, P17 price of checking the input, P18 small builds.
 """
 
 import argparse
@@ -116,11 +116,37 @@ def time_per_node(cases, out):
                     ("nodes", "ns per node"), caption)
 
 
+def beside_peers(cases, out):
+    """Whoever took part, relative to ours: the largest size of every workload and form, with most threads."""
+    whos = {}
+    for case, runs in cases.items():
+        if is_plain(case) and not case.first and runs.get("nodes"):
+            whos.setdefault(case._replace(who=""), {})[case.who] = runs
+    most = max((case.threads for case in whos), default=0)
+    for form in sorted({case.form for case in whos}):
+        rows, heights, sizes = [], {}, {}
+        for case, runs in whos.items():
+            if case.form != form or case.threads != most or "ours" not in runs or len(runs) < 2:
+                continue
+            nodes, ours = runs["ours"].get("nodes"), runs["ours"].ms()
+            if nodes > sizes.get(case.workload, 0):
+                sizes[case.workload] = nodes
+                heights[case.workload] = {who: r.ms() / ours for who, r in sorted(runs.items()) if who != "ours"}
+            rows += [[case.workload, nodes, who, r.ms(), r.ms() / ours] for who, r in sorted(runs.items())]
+        if not rows:
+            continue
+        chart = Chart(out, f"P7_beside_peers_{form}", ["workload", "nodes", "who", "ms", "over_ours"], rows)
+        ratio, who, workload = min((ratio, who, w) for w, ratios in heights.items() for who, ratio in ratios.items())
+        chart.bars(heights, "time / ours", f"P7: {form}, {most} threads, time of other searches over ours, largest size of "
+                   f"each workload; closest is {who} on {workload}, {ratio:.2f} times ours. What each of them delivers is "
+                   "said in table.md; a missing bar: not able to, or too slow.")
+
+
 def hard_scenes(cases, out):
-    """Automatic choice, the methods by name, and nanoflann, relative to the best method."""
+    """Automatic choice, the methods by name, and peers, relative to the best method."""
     times = {}
     for case, runs in cases.items():
-        method = "nanoflann" if case.who == "nanoflann" else case.variant or "automatic"
+        method = case.who if case.who != "ours" else case.variant or "automatic"
         hard = case.workload[0] == "A" or case.size == "1e4"
         if hard and case.form == "rows" and case.threads == 2 and method not in ("3lists", "tensor"):
             times.setdefault(case.workload, {})[method] = runs.ms()
@@ -226,7 +252,7 @@ def main():
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     _, cases = read(arguments.records)
-    for chart in (time_per_node, hard_scenes, reuse, price_of_determinism, price_of_features, price_of_checks, small_builds):
+    for chart in (time_per_node, beside_peers, hard_scenes, reuse, price_of_determinism, price_of_features, price_of_checks, small_builds):
         chart(cases, arguments.out)
     print(f"{arguments.out}: " + ("CSV and PNG" if pyplot else "CSV only, matplotlib (python3-matplotlib) is missing"))
 

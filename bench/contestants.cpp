@@ -9,9 +9,7 @@
 
 #include "host_step.hpp"
 #include "pair_sums.hpp"
-#if defined(CONNECTIVITY_BENCH_NANOFLANN)
-#include "nanoflann_peer.hpp"
-#endif
+#include "peers/peer.hpp"
 
 namespace connectivity::bench {
 namespace {
@@ -130,27 +128,13 @@ Input make_input(const std::string& cloud, bool tensor) {
     return input;
 }
 
-std::vector<std::string> contestants() {
-#if defined(CONNECTIVITY_BENCH_NANOFLANN)
-    return {"ours", "nanoflann"};
-#else
-    return {"ours"};
-#endif
-}
-
-bool nanoflann_takes_part(const std::string& workload, const std::string& form) {
-    return form != "both" && workload != "A8";
-}
-
 std::unique_ptr<Contestant> make_contestant(const std::string& who, const std::string& variant,
                                             const Input& input, Form form) {
     start_runtime();
     if (is_host_step(variant)) return make_host_step(input, variant);
     if (is_pair_sum(variant)) return make_pair_sums(input, variant);
     if (who == "ours") return std::make_unique<Ours>(input, form, variant);
-#if defined(CONNECTIVITY_BENCH_NANOFLANN)
-    if (who == "nanoflann") return make_nanoflann(input, form);
-#endif
+    if (const Peer* const peer = peer_named(who)) return peer->make(input, form);
     throw std::invalid_argument("no contestant named " + who);
 }
 

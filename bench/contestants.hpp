@@ -2,9 +2,9 @@
 #pragma once
 /// Who takes part in the rebuild benchmark, and what each of them builds.
 ///
-/// All contestants get the same points, in the same shuffled order, and deliver compressed sparse
-/// rows by the caller's numbers: `rows` sorted, with both directions of every pair; `pairs` with
-/// every pair once. Storage is kept from build to build by all of them.
+/// All contestants get the same points, in the same shuffled order. Ours are compressed sparse rows
+/// by the caller's numbers: `rows` sorted, with both directions of every pair; `pairs` with every
+/// pair once. Peers find the same neighbours, in a form of their own: peers/peer.hpp.
 
 #include <memory>
 #include <string>
@@ -51,17 +51,11 @@ public:
     virtual int n_rebuilds() const { return 1; }   ///< in these
 };
 
-/// "ours", and "nanoflann" where it was found.
-std::vector<std::string> contestants();
-
-/// It has no tensors, and does not offer rows and pairs together.
-bool nanoflann_takes_part(const std::string& workload, const std::string& form);
-
 /// Variants `key`, `overlap` and `intersection`: rows, pairs and that product, too.
 bool is_feature(const std::string& variant);
 
-/// `variant` is of ours: see cases.hpp. The input has to outlive the contestant, which stands at
-/// state 0. Starts the runtime.
+/// `who` is "ours" or a peer, `variant` of ours: see cases.hpp. The input has to outlive the
+/// contestant, which stands at state 0. Starts the runtime.
 std::unique_ptr<Contestant> make_contestant(const std::string& who, const std::string& variant,
                                             const Input& input, Form form);
 

@@ -6,6 +6,8 @@
 #include <connectivity/base/parallel.hpp>
 #include <connectivity/base/runtime.hpp>
 
+#include "peers/peer.hpp"
+
 namespace connectivity::bench {
 namespace {
 
@@ -59,6 +61,17 @@ Offset brute_force_pairs(const Nodes& nodes) {
     return n_pairs;
 }
 
+/// The first that can tell, or null.
+const Peer* counting_peer(const std::string& cloud) {
+    CaseName c;
+    const std::size_t at = cloud.find('@');
+    c.workload = cloud.substr(0, at), c.form = "pairs", c.threads = "2";
+    if (at != std::string::npos) c.size = cloud.substr(at + 1);
+    for (const Peer& peer : peers())
+        if (peer.exact && peer.takes_part(c)) return &peer;
+    return nullptr;
+}
+
 }  // namespace
 
 std::vector<Offset> reference_pairs(const Input& input, bool tensor) {
@@ -66,18 +79,17 @@ std::vector<Offset> reference_pairs(const Input& input, bool tensor) {
     start_runtime();
     const auto n_states = static_cast<std::size_t>(input.n_moved()) + 1;
     std::vector<Offset> n_pairs(n_states, -1);
-    const auto whos = contestants();
-    const bool peer = std::find(whos.begin(), whos.end(), "nanoflann") != whos.end();
+    const Peer* const peer = tensor ? nullptr : counting_peer(input.cloud.name);
     if (input.cloud.n <= few) {
         for (int state = 0; state <= input.n_moved(); ++state)
             n_pairs[static_cast<std::size_t>(state)] =
                 brute_force_pairs(nodes_of(input, tensor, state));
-    } else if (peer && !tensor && nanoflann_takes_part(input.cloud.name, "pairs")) {
-        const auto nanoflann = make_contestant("nanoflann", "", input, Form::pairs);
+    } else if (peer != nullptr) {
+        const auto counting = peer->make(input, Form::pairs);
         for (int state = 0; state <= input.n_moved(); ++state) {
-            nanoflann->place(state);
-            nanoflann->build();
-            n_pairs[static_cast<std::size_t>(state)] = nanoflann->n_pairs();
+            counting->place(state);
+            counting->build();
+            n_pairs[static_cast<std::size_t>(state)] = counting->n_pairs();
         }
     }
     return n_pairs;

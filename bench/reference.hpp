@@ -8,7 +8,8 @@
 namespace connectivity::bench {
 
 /// Number of unique pairs in each state of the input, -1 where nobody but us can tell: by brute
-/// force up to 20000 nodes, beyond by nanoflann, which has no tensors. `tensor`: by the input's H.
+/// force up to 20000 nodes, beyond by the first exact peer, none of which has tensors. `tensor`: by
+/// the input's H.
 std::vector<Offset> reference_pairs(const Input& input, bool tensor);
 
 /// Neighbours of a node, ascending, from the definition. Cost: one distance a node.

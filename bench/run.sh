@@ -13,7 +13,7 @@ set -eu
 
 here=$(cd "$(dirname "$0")" && pwd)
 program=$here/../build/bench/rebuild out=$here/../build/bench/report python=python3
-any='^[a-z]+'
+any='^[a-z_]+'
 standard="$any/W[1-7]/(rows|pairs|both)/[12](/(3lists|tensor|step|reordered))?\$|^(ours|yardstick)/W[1-7]/[a-z]+/[12]/first"
 sizes='^ours/W[1-7]/(rows|pairs)/2/[134]e[3-6]$'
 hard="$any/A[0-9a-z]+/rows/2|^ours/W[1-7]/rows/2/1e4"
@@ -27,7 +27,7 @@ while [ $# -gt 0 ]; do
         filter="$any/W[1-7]/(rows|pairs)/2/(1e4|1e5)\$|$any/W2/(rows|pairs)/2\$|$hard|$small|$reuse|$features"
         options="--benchmark_repetitions=3 --benchmark_min_time=0.05" ;;
     --tiny)
-        filter="$any/W[13467]/rows/2/1e3|^ours/W[13]/both/2/1e3|^ours/W1/pairs/2/1e3|^ours/W1/rows/[12]/100|$any/A(4|8|10)/rows/2"
+        filter="$any/W[13467]/rows/2/1e3|^ours/W[13]/both/2/1e3|$any/W[17]/pairs/2/1e3|^ours/W1/rows/[12]/100|$any/A(4|8|10)/rows/2"
         options="--benchmark_repetitions=1 --benchmark_min_time=0.001" ;;
     --program) program=$2; shift ;;
     --python) python=$2; shift ;;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Turns records of build/bench/rebuild into Markdown tables: medians with their spread beside peers and floor, and
-what lists, tensors, threads and a first build cost.
+"""Turns records of build/bench/rebuild into Markdown tables: medians with their spread beside the floor, the same
+beside every peer that took part, and what lists, tensors, threads and a first build cost.
 
     build/bench/rebuild --benchmark_out=record.json
     python3 bench/table.py record.json [more.json ...]
@@ -30,24 +30,44 @@ def our_cells(runs):
             number(floor), number(floor and runs.ms() / floor, ".1f")]
 
 
-def peer_cells(runs, ours):
-    return ["-"] * 3 if runs is None else [f"{runs.ms():.4g}", number(runs.get("peak_MiB"), ".0f"),
-                                           f"{runs.ms() / ours.ms():.2f}"]
-
-
 def main_table(cases):
-    peers = sorted({case.who for case in cases} - {"ours"})
     head = ["case", "ours ms", "ns/node", "M entries/s", "B/pair", "peak MiB", "peak / returned", "floor ms", "x floor"]
-    for peer in peers:
-        head += [f"{peer} ms", "peak MiB", f"{peer} / ours"]
     lines = [row(head), "|" + "---|" * len(head)]
-    for case, runs in cases.items():
-        if case.who == "ours":
-            cells = [case.label()] + our_cells(runs)
-            for peer in peers:
-                cells += peer_cells(cases.get(case._replace(who=peer, variant="")) if not case.variant else None, runs)
-            lines.append(row(cells))
-    return lines
+    lines += [row([case.label()] + our_cells(runs)) for case, runs in cases.items() if case.who == "ours"]
+    return lines if len(lines) > 2 else []
+
+
+def peer_cell(runs, ours):
+    if runs is None:
+        return "-"
+    ratio = f"**{runs.ms() / ours.ms():.2f}**, " if ours else ""
+    return f"{runs.ms():.4g} ({ratio}{number(runs.get('peak_MiB'), '.0f')})"
+
+
+def peer_table(cases):
+    """One line per case that somebody else took part in, one column per peer."""
+    peers = sorted({case.who for case in cases} - {"ours"})
+    lines = [row(["case", "ours ms (peak MiB)"] + peers), "|" + "---|" * (len(peers) + 2)]
+    for case in dict.fromkeys(case._replace(who="ours") for case in cases if case.who in peers):
+        ours = cases.get(case)
+        lines.append(row([case.label(), peer_cell(ours, None)]
+                         + [peer_cell(cases.get(case._replace(who=peer)), ours) for peer in peers]))
+    return lines if peers else []
+
+
+def peer_notes(contexts, cases):
+    """What each peer delivers, and how far the counts of those in single precision are off."""
+    notes = []
+    for peer in sorted({case.who for case in cases} - {"ours"}):
+        delivers = next((c["peer_" + peer] for c in contexts if "peer_" + peer in c), "")
+        off = max(((runs.get("pairs_off") / (runs.get("pairs") or 1), runs.get("pairs_off"), case.label())
+                   for case, runs in cases.items() if case.who == peer and runs.get("pairs_off") is not None),
+                  default=None)
+        if off:
+            delivers += f"; counts off by up to {off[0]:.1g} of the pairs ({off[1]:.0f} in {off[2]})"
+        if delivers:
+            notes.append(f"- {peer}: {delivers}")
+    return notes
 
 
 def ratio_table(cases):
@@ -83,11 +103,15 @@ def main():
         print(f"{context['date'][:16]}, {context['num_cpus']} x {context.get('cpu', '?')}, "
               f"load {context['load_avg'][0]:.1f} at the start; {context.get('compiler', '?')}; "
               f"{context.get('connectivity', '')}.")
-    print("Median (fastest-slowest) of the repetitions. Cases: workload/form/threads[/extra]; a ratio above 1 means that "
-          "the peer takes longer. Every build sees points displaced by 0.05 of their support; a yardstick's do not move. "
-          "Peak: memory the first build added. Floor: 5 ms per million nodes and the bytes returned at the speed of "
-          "streaming stores in the same process.\n")
+    print("Median (fastest-slowest) of the repetitions. Cases: workload/form/threads[/extra]. Every build sees points "
+          "displaced by 0.05 of their support; a yardstick's do not move. Peak: memory the first build added. Floor: 5 ms "
+          "per million nodes and the bytes returned at the speed of streaming stores in the same process.\n")
     print("\n".join(main_table(cases)))
+    beside = peer_table(cases)
+    if beside:
+        print("\nPeers, in the same run: ms (**times ours**, peak MiB); above 1 the peer takes longer.\n")
+        print("\n".join(beside))
+        print("\n" + "\n".join(peer_notes(contexts, cases)))
     ratios = ratio_table(cases)
     if ratios:
         print("\nPage faults: the bytes returned at the speed of first stores into large pages.\n")

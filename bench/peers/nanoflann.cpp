@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nanoflann_peer.hpp"
+/// nanoflann, used as well as its interface allows. Double precision; compressed sparse rows.
+///
+/// A kd-tree with leaves of 32 over a copy of the points in the tree order of the build before;
+/// queries in that order, by all threads; results in per-thread buffers, then counted and copied
+/// into compressed sparse rows. Pairs: the node with the larger (R, number) owns a pair, so one
+/// gather per node finds each pair once; half rows are left unsorted. Rows: for a constant R one
+/// gather per node, sorted; for a variable R the owned pairs are mirrored, then sorted.
+
+#include "peer.hpp"
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 
 #include <nanoflann.hpp>
 
@@ -78,17 +85,15 @@ struct Found {
 };
 
 template <int Dim>
-class Nanoflann final : public Contestant {
+class Nanoflann final : public PeerContestant {
 public:
     Nanoflann(const Input& input, Form form)
-        : input_(input), w_(input.cloud), x_(input.x(0)), rows_(form == Form::rows) {
+        : PeerContestant(input, form, true), w_(input.cloud), rows_(rows()) {
         order_.resize(static_cast<std::size_t>(w_.n));
         std::iota(order_.begin(), order_.end(), Slot{0});
         found_.resize(order_.size());
         buffers_.resize(static_cast<std::size_t>(n_workers()));
     }
-
-    void place(int state) override { x_ = input_.x(state); }
 
     void build() override {
         sort_points();
@@ -104,10 +109,14 @@ public:
         remember_order(tree);
     }
 
-    Offset n_row_entries() const override { return rows_ ? static_cast<Offset>(n_values_) : 0; }
-    Offset n_pairs() const override { return rows_ ? 0 : static_cast<Offset>(n_values_); }
     Offset result_bytes() const override {
         return static_cast<Offset>(n_values_ * sizeof(Slot) + offsets_.size() * sizeof(Offset));
+    }
+
+protected:
+    Offset n_entries() const override { return static_cast<Offset>(n_values_); }
+    std::vector<Offset> partners(Offset node) const override {
+        return partners_in(offsets_.data(), values_.get(), w_.n, node, !rows_);
     }
 
 private:
@@ -120,7 +129,7 @@ private:
         points_.x.resize(w_.x.size());
         for_each_dynamic("bench/nanoflann/sort", (w_.n + chunk - 1) / chunk, [&](int, Offset c) {
             for (Offset k = c * chunk; k < std::min(w_.n, (c + 1) * chunk); ++k)
-                std::copy_n(x_ + label(k) * Offset{Dim}, Dim,
+                std::copy_n(x() + label(k) * Offset{Dim}, Dim,
                             &points_.x[static_cast<std::size_t>(k) * Dim]);
         });
     }
@@ -225,9 +234,7 @@ private:
             });
     }
 
-    const Input& input_;
     const test::Workload& w_;
-    const double* x_;
     bool rows_;
     Points<Dim> points_;
     std::vector<Slot> order_;  ///< caller's number of each sorted point
@@ -238,12 +245,19 @@ private:
     std::size_t n_values_ = 0, capacity_ = 0;
 };
 
-}  // namespace
+/// It has no tensors, which A8 is about.
+bool takes_part(const CaseName& c) { return c.form != "both" && c.workload != "A8"; }
 
-std::unique_ptr<Contestant> make_nanoflann(const Input& input, Form form) {
-    if (form == Form::both) throw std::invalid_argument("nanoflann builds rows or pairs, not both");
+std::unique_ptr<Contestant> make(const Input& input, Form form) {
     if (input.cloud.dim == 2) return std::make_unique<Nanoflann<2>>(input, form);
     return std::make_unique<Nanoflann<3>>(input, form);
+}
+
+}  // namespace
+
+std::vector<Peer> nanoflann_peers() {
+    return {{"nanoflann", "double; compressed rows, sorted, or half rows, unsorted", true,
+             takes_part, make}};
 }
 
 }  // namespace connectivity::bench
