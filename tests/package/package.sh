@@ -1,0 +1,141 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# One check of the installed tree. Usage: package.sh CHECK, with the environment that CMakeLists.txt
+# sets: SOURCE (this folder), ROOT (the clone), BUILD, PREFIX, WORK, CMAKE, GENERATOR, CC, CXX, FC,
+# PYTHON, NM, KOKKOS_DIR, LIBDIR (below the prefix). Exit status 77: cannot be checked here.
+set -eu
+
+check=$1
+dir=$WORK/$check
+export LC_ALL=C CC CXX
+unset LD_LIBRARY_PATH PKG_CONFIG_PATH CMAKE_PREFIX_PATH # only the prefix is to be found
+rm -rf "$dir"
+mkdir -p "$dir"
+
+skip() { echo "skipped: $*"; exit 77; }
+need() { command -v "$1" > /dev/null || skip "there is no $1 on this machine"; }
+fail() { echo "$*" >&2; exit 1; }
+
+# expect TEXT COMMAND...: runs it and compares its output.
+expect() {
+    text=$1
+    shift
+    found=$("$@")
+    [ "$found" = "$text" ] || fail "expected '$text', got '$found'"
+}
+
+# configure NAME [-DOPTION]...: the project tests/package/NAME, in $dir/NAME.
+configure() {
+    project=$1
+    shift
+    "$CMAKE" -S "$SOURCE/$project" -B "$dir/$project" -G "$GENERATOR" "$@" > "$dir/log" 2>&1 || {
+        cat "$dir/log"
+        return 1
+    }
+}
+
+# build NAME [-DOPTION]...: configures it with the prefix and builds it.
+build() {
+    configure "$@" -DCMAKE_PREFIX_PATH="$PREFIX" -DCMAKE_BUILD_TYPE=Release
+    "$CMAKE" --build "$dir/$1"
+}
+
+use_pkg_config() {
+    need pkg-config
+    export PKG_CONFIG_LIBDIR="$PREFIX/$LIBDIR/pkgconfig" # instead of the system's
+}
+
+pairs_text="7560 pairs, version $VERSION" # 3 m²(m-1) + 6 m (m-1)² for m = 10
+
+c_by_find_package() {
+    build c -DCMAKE_DISABLE_FIND_PACKAGE_Kokkos=ON
+    expect "$pairs_text" "$dir/c/pairs"
+}
+
+c_by_pkg_config() {
+    use_pkg_config
+    expect "$VERSION" pkg-config --modversion connectivity
+    $CC "$SOURCE/c/pairs.c" -o "$dir/pairs" $(pkg-config --cflags --libs connectivity)
+    expect "$pairs_text" env LD_LIBRARY_PATH="$PREFIX/$LIBDIR" "$dir/pairs"
+}
+
+case $check in
+install)
+    rm -rf "$PREFIX"
+    "$CMAKE" --install "$BUILD" --prefix "$PREFIX" > "$dir/log"
+    for file in LICENSE README.md examples/c/neighbours.c; do
+        [ -f "$PREFIX/share/doc/connectivity/$file" ] || fail "$file is not installed"
+    done
+    [ ! -x "$BUILD/connectivity" ] || expect "connectivity $VERSION" "$PREFIX/bin/connectivity" --version
+    ;;
+c_by_find_package) c_by_find_package ;;
+c_by_pkg_config) c_by_pkg_config ;;
+c_linked_statically)
+    use_pkg_config
+    # -static makes the linker take the archive, so that Libs.private is needed.
+    $CC -static "$SOURCE/c/pairs.c" -o "$dir/pairs" \
+        $(pkg-config --static --cflags --libs connectivity) 2> "$dir/log" || fail "$(cat "$dir/log")"
+    expect "$pairs_text" "$dir/pairs"
+    ;;
+cxx_by_find_package)
+    build cxx
+    expect "7560 pairs" "$dir/cxx/pairs"
+    ;;
+python_by_dlopen)
+    expect "$pairs_text" "$PYTHON" "$SOURCE/python/pairs.py" "$PREFIX/$LIBDIR/libconnectivity.so.0"
+    ;;
+moved)
+    # A copy elsewhere works, and nothing in it names the place it was made for.
+    cp -a "$PREFIX" "$dir/elsewhere"
+    if grep -rlF "$PREFIX" "$dir/elsewhere"; then fail "these name the prefix"; fi
+    PREFIX=$dir/elsewhere
+    c_by_find_package
+    if command -v pkg-config > /dev/null; then c_by_pkg_config; fi
+    ;;
+headers) build headers ;;
+exports)
+    library=$PREFIX/$LIBDIR/libconnectivity.so
+    sh "$ROOT/tests/capi/exports.sh" symbols "$NM" "$library" "$ROOT/capi/symbols.txt"
+    [ "$KOKKOS" = shared ] || sh "$ROOT/tests/capi/exports.sh" needs "$library"
+    ;;
+the_c_package_names_no_other)
+    package=$PREFIX/$LIBDIR/cmake/connectivity
+    if grep -i -e kokkos -e eigen -e hdf5 "$package"/connectivityConfig*.cmake \
+        "$package"/connectivity-targets*.cmake; then
+        fail "these need another package"
+    fi
+    ;;
+components)
+    set -- -DCMAKE_PREFIX_PATH="$PREFIX"
+    configure components "$@" -DARGUMENTS="0.1;COMPONENTS;c;cxx" -DEXPECT=ON
+    rm -r "$dir/components"
+    configure components "$@" -DARGUMENTS="COMPONENTS;banana" -DMESSAGE="'banana' is unknown"
+    rm -r "$dir/components"
+    configure components "$@" -DARGUMENTS="OPTIONAL_COMPONENTS;banana" -DEXPECT=ON
+    rm -r "$dir/components"
+    configure components "$@" -DARGUMENTS="COMPONENTS;cxx" \
+        -DCMAKE_DISABLE_FIND_PACKAGE_Kokkos=ON -DMESSAGE="needs the Kokkos"
+    for version in 0.2 1 99; do
+        rm -r "$dir/components"
+        configure components "$@" -DARGUMENTS="$version"
+    done
+    ;;
+subproject_is_configured)
+    for fetch in ON OFF; do
+        configure subproject -DCONNECTIVITY_SOURCE="$ROOT" -DKokkos_DIR="$KOKKOS_DIR" -DFETCH=$fetch
+        if find "$dir/subproject" -name cmake_install.cmake -exec grep -l libconnectivity {} + |
+            grep .; then
+            fail "the library would be installed with its host"
+        fi
+        rm -r "$dir/subproject"
+    done
+    ;;
+subproject_is_built)
+    configure subproject -DCONNECTIVITY_SOURCE="$ROOT" -DKokkos_DIR="$KOKKOS_DIR" \
+        -DCMAKE_BUILD_TYPE=Release
+    "$CMAKE" --build "$dir/subproject" --target pairs cxx_pairs
+    expect "$pairs_text" "$dir/subproject/pairs"
+    expect "7560 pairs" "$dir/subproject/cxx_pairs"
+    ;;
+*) fail "unknown check $check" ;;
+esac
