@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What `cmake --install` puts where, in components connectivity_runtime, _development (C), _cxx,
-# _program and _doc. Nothing installed names the prefix: the tree may be moved.
+# _fortran, _program and _doc. Nothing installed names the prefix: the tree may be moved.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -51,6 +51,7 @@ install(FILES "${PROJECT_BINARY_DIR}/package/connectivity-cxx.cmake"
     DESTINATION "${package_dir}" COMPONENT connectivity_cxx)
 
 include(PkgConfig)
+include(InstallFortran)
 
 if(TARGET connectivity_command)
     set_target_properties(connectivity_command PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)

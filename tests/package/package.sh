@@ -7,7 +7,7 @@ set -eu
 
 check=$1
 dir=$WORK/$check
-export LC_ALL=C CC CXX
+export LC_ALL=C CC CXX FC
 unset LD_LIBRARY_PATH PKG_CONFIG_PATH CMAKE_PREFIX_PATH # only the prefix is to be found
 rm -rf "$dir"
 mkdir -p "$dir"
@@ -59,6 +59,23 @@ c_by_pkg_config() {
     expect "$pairs_text" env LD_LIBRARY_PATH="$PREFIX/$LIBDIR" "$dir/pairs"
 }
 
+need_fortran() {
+    [ -n "$FC" ] || skip "the build has no Fortran module"
+}
+
+fortran_by_find_package() {
+    build fortran "$@"
+    expect "$pairs_text" "$dir/fortran/pairs"
+}
+
+fortran_by_pkg_config() {
+    use_pkg_config
+    expect "$VERSION" pkg-config --modversion connectivity-fortran
+    $FC "$SOURCE/fortran/pairs.F90" -o "$dir/pairs" \
+        $(pkg-config --cflags --libs connectivity-fortran)
+    expect "$pairs_text" env LD_LIBRARY_PATH="$PREFIX/$LIBDIR" "$dir/pairs"
+}
+
 case $check in
 install)
     rm -rf "$PREFIX"
@@ -81,6 +98,37 @@ cxx_by_find_package)
     build cxx
     expect "7560 pairs" "$dir/cxx/pairs"
     ;;
+fortran_by_find_package)
+    need_fortran
+    fortran_by_find_package
+    ;;
+fortran_by_pkg_config)
+    need_fortran
+    fortran_by_pkg_config
+    ;;
+fortran_from_source)
+    # A module file of another compiler is one that this compiler cannot read.
+    need_fortran
+    cp -a "$PREFIX" "$dir/prefix"
+    PREFIX=$dir/prefix
+    for module in "$PREFIX/$LIBDIR"/connectivity/fortran/*/*.mod; do
+        echo "of another compiler" > "$module"
+    done
+    fortran_by_find_package -DFROM_SOURCE=ON
+    # A library that was installed where there was no Fortran compiler.
+    rm "$PREFIX/$LIBDIR"/cmake/connectivity/connectivity-fortran-targets*.cmake
+    rm -r "$PREFIX/$LIBDIR/connectivity/fortran" "$PREFIX/$LIBDIR/libconnectivity_fortran.a"
+    rm -r "$dir/fortran"
+    fortran_by_find_package -DFROM_SOURCE=ON
+    ;;
+examples)
+    "$CMAKE" -S "$PREFIX/share/doc/connectivity/examples" -B "$dir/build" -G "$GENERATOR" \
+        -DCMAKE_PREFIX_PATH="$PREFIX" > "$dir/log" || fail "$(cat "$dir/log")"
+    "$CMAKE" --build "$dir/build"
+    for example in "$dir"/build/*_c "$dir"/build/*_fortran; do
+        [ ! -x "$example" ] || "$example"
+    done
+    ;;
 python_by_dlopen)
     expect "$pairs_text" "$PYTHON" "$SOURCE/python/pairs.py" "$PREFIX/$LIBDIR/libconnectivity.so.0"
     ;;
@@ -90,7 +138,11 @@ moved)
     if grep -rlF "$PREFIX" "$dir/elsewhere"; then fail "these name the prefix"; fi
     PREFIX=$dir/elsewhere
     c_by_find_package
-    if command -v pkg-config > /dev/null; then c_by_pkg_config; fi
+    [ -z "$FC" ] || fortran_by_find_package
+    if command -v pkg-config > /dev/null; then
+        c_by_pkg_config
+        [ -z "$FC" ] || fortran_by_pkg_config
+    fi
     ;;
 headers) build headers ;;
 exports)
@@ -115,6 +167,8 @@ components)
     rm -r "$dir/components"
     configure components "$@" -DARGUMENTS="COMPONENTS;cxx" \
         -DCMAKE_DISABLE_FIND_PACKAGE_Kokkos=ON -DMESSAGE="needs the Kokkos"
+    rm -r "$dir/components"
+    configure components "$@" -DARGUMENTS="COMPONENTS;fortran" -DMESSAGE="with Fortran among"
     for version in 0.2 1 99; do
         rm -r "$dir/components"
         configure components "$@" -DARGUMENTS="$version"
