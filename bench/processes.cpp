@@ -76,6 +76,8 @@ int run_group(const json& job, const std::string& threads, const Arguments& a,
     if (posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ) == 0)
         waitpid(child, &status, 0);
     posix_spawn_file_actions_destroy(&actions);
+    if (WIFSIGNALED(status))
+        std::cerr << "error: signal " << WTERMSIG(status) << " in " << job["cases"].dump() << '\n';
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 

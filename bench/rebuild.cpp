@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // build/bench/rebuild: time and memory of neighbour rows and pairs on W1-W7 and on hard scenes,
-// next to a peer in the same process.
+// next to peers (bench/peers/) in the same process.
 //
 //   build/bench/rebuild --benchmark_filter='W1/(rows|pairs)/2$' --benchmark_out=record.json
 //   python3 bench/table.py record.json

@@ -9,6 +9,13 @@
 #   --out DIR        record.json, table.md and charts go there [build/bench/report]
 # A quiet machine is yours to provide. CONNECTIVITY_YARDSTICK=<program> adds a yardstick, see
 # bench/yardstick.hpp.
+#
+# Peers take part that were found when the build was configured: nanoflann, TreeNSearch, ArborX,
+# vesin, cornerstone-octree, Cabana. Each is pointed to by <package>_ROOT, the prefix that it was
+# installed into (TreeNSearch, ArborX, vesin, Cabana) or its source folder's include (cornerstone):
+#   cmake -B build -DArborX_ROOT=$HOME/arborx -DKokkos_ROOT=$HOME/kokkos ...
+# ArborX and Cabana have to be built with the Kokkos of this build, 4.5 or later. What each of them
+# can do and is left out of stands in bench/peers/<name>.cpp.
 set -eu
 
 here=$(cd "$(dirname "$0")" && pwd)
