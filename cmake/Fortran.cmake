@@ -4,15 +4,14 @@
 # other compilers build the source that is installed beside it.
 
 set(CONNECTIVITY_FORTRAN_DIR "${PROJECT_SOURCE_DIR}/capi/fortran")
-if(CONNECTIVITY_TOP_LEVEL)
+if(CONNECTIVITY_TOP_LEVEL AND NOT CMAKE_Fortran_COMPILER)
+    unset(CMAKE_Fortran_COMPILER CACHE) # there may be one by now
     include(CheckLanguage)
     check_language(Fortran)
 endif()
-set(found OFF)
 if(CMAKE_Fortran_COMPILER)
-    set(found ON)
+    option(CONNECTIVITY_FORTRAN "Build the Fortran module" ON)
 endif()
-option(CONNECTIVITY_FORTRAN "Build the Fortran module" ${found})
 
 # The statuses as Fortran parameters, from their one list.
 file(READ "${PROJECT_SOURCE_DIR}/include/connectivity/base/status.h" text)
@@ -27,6 +26,7 @@ file(CONFIGURE OUTPUT "${CONNECTIVITY_FORTRAN_STATUS}"
     CONTENT "    ! Made from connectivity/base/status.h\n${text}" @ONLY)
 
 if(NOT CONNECTIVITY_FORTRAN)
+    message(STATUS "The Fortran module is not built; its source is installed")
     return()
 endif()
 enable_language(Fortran)

@@ -64,3 +64,10 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
     DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT connectivity_doc)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/capi/examples"
     DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT connectivity_doc)
+
+# Pages that the target docs has made; those of struct members would be called h.3 and the like.
+install(DIRECTORY "${PROJECT_BINARY_DIR}/docs/html" OPTIONAL
+    DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT connectivity_doc)
+install(DIRECTORY "${PROJECT_BINARY_DIR}/docs/man/man3" OPTIONAL
+    DESTINATION "${CMAKE_INSTALL_MANDIR}" COMPONENT connectivity_doc
+    FILES_MATCHING REGEX "/(conn_|CONN_|connectivity)[^/]*\\.3$")

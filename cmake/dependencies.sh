@@ -1,8 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what the build, the program and the tests need on Debian and its relatives: packages
-# that are missing, then a Kokkos with OpenMP if there is none. Safe to run again: what is there
-# is left alone. Elsewhere install the same things by hand; nothing else here is Debian's.
+# Installs what is needed on Debian and its relatives: packages that are missing, then a Kokkos with
+# OpenMP if there is none. Safe to run again: what is there is left alone. Elsewhere install the
+# same things by hand; nothing else here is Debian's.
+#   sh cmake/dependencies.sh           for the libraries, the program, unit tests and benchmarks
+#   sh cmake/dependencies.sh --tests   also for hosts in other languages, the reference, ABI checks
 set -eu
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -16,6 +18,12 @@ packages="
     ca-certificates python3-pip python3-setuptools"
 # First line: compiler and build. Then small dense algebra, the program, the tests and the
 # benchmarks, and what kokkos.sh downloads with.
+
+case ${1:-} in
+--tests) packages="$packages gfortran pkg-config python3-numpy doxygen abigail-tools" ;;
+'') ;;
+*) echo "unknown argument $1; known: --tests" >&2; exit 2 ;;
+esac
 
 as_root() {
     if [ "$(id -u)" = 0 ]; then

@@ -19,7 +19,7 @@ for argument in "$@"; do
 done
 
 echo "== 1/3 dependencies"
-sh cmake/dependencies.sh
+sh cmake/dependencies.sh --tests
 
 echo "== 2/3 building everything into $build/"
 [ -f "$build/CMakeCache.txt" ] || options="$options -G Ninja"

@@ -157,6 +157,14 @@ the_c_package_names_no_other)
         fail "these need another package"
     fi
     ;;
+reference)
+    # Once more, and elsewhere: warnings of Doxygen are errors.
+    [ -f "$BUILD/docs/Doxyfile" ] || skip "there was no doxygen when the build was configured"
+    { cat "$BUILD/docs/Doxyfile"; echo "OUTPUT_DIRECTORY = \"$dir\""; } | doxygen -
+    for page in connectivity.h conn_map_rebuild conn_array; do
+        [ -f "$dir/man/man3/$page.3" ] || fail "there is no man page of $page"
+    done
+    ;;
 components)
     set -- -DCMAKE_PREFIX_PATH="$PREFIX"
     configure components "$@" -DARGUMENTS="0.1;COMPONENTS;c;cxx" -DEXPECT=ON
