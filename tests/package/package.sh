@@ -76,6 +76,10 @@ fortran_by_pkg_config() {
     expect "$pairs_text" env LD_LIBRARY_PATH="$PREFIX/$LIBDIR" "$dir/pairs"
 }
 
+configure_subproject() {
+    configure subproject -DCONNECTIVITY_SOURCE="$ROOT" -DKokkos_DIR="$KOKKOS_DIR" "$@"
+}
+
 case $check in
 install)
     rm -rf "$PREFIX"
@@ -184,7 +188,7 @@ components)
     ;;
 subproject_is_configured)
     for fetch in ON OFF; do
-        configure subproject -DCONNECTIVITY_SOURCE="$ROOT" -DKokkos_DIR="$KOKKOS_DIR" -DFETCH=$fetch
+        configure_subproject -DFETCH=$fetch
         if find "$dir/subproject" -name cmake_install.cmake -exec grep -l libconnectivity {} + |
             grep .; then
             fail "the library would be installed with its host"
@@ -193,10 +197,10 @@ subproject_is_configured)
     done
     ;;
 subproject_is_built)
-    configure subproject -DCONNECTIVITY_SOURCE="$ROOT" -DKokkos_DIR="$KOKKOS_DIR" \
-        -DCMAKE_BUILD_TYPE=Release
-    "$CMAKE" --build "$dir/subproject" --target pairs cxx_pairs
+    configure_subproject -DCMAKE_BUILD_TYPE=Release ${FC:+-DFORTRAN=ON}
+    "$CMAKE" --build "$dir/subproject"
     expect "$pairs_text" "$dir/subproject/pairs"
+    [ -z "$FC" ] || expect "$pairs_text" "$dir/subproject/fortran_pairs"
     expect "7560 pairs" "$dir/subproject/cxx_pairs"
     ;;
 *) fail "unknown check $check" ;;
