@@ -42,6 +42,8 @@ public:
     /// random, and a store that waits for its line holds up all that follow.
     void prefetch(Slot slot) const {
         if (records_ != nullptr) __builtin_prefetch(records_ + slot * record_bytes_, 1);
+        if (by_list_row_ != nullptr)
+            __builtin_prefetch(by_list_row_ + layout_->row_of_slot(slot) * layout_->n_lists(), 1);
     }
 
     /// Called by worker `worker`. Throws what the sink does.
@@ -65,6 +67,7 @@ protected:
     Slot last_stored_ = -1;
     const char* records_ = nullptr;  // none unless the sink writes one for each slot
     Offset record_bytes_ = 0;
+    const Slot* by_list_row_ = nullptr;  // of row 0; none unless entries are counted by list
 };
 
 }  // namespace connectivity::detail

@@ -15,10 +15,12 @@ void RowStore::begin(const SlotLayout& layout, bool rows, bool halves, BitKernel
     ensure_capacity(row_, "search/groups/row", layout.n_slots());
     records_ = reinterpret_cast<const char*>(row_.data());
     record_bytes_ = sizeof(ArenaRow);
-    if (rows && layout.n_lists() > 1)
+    const bool by_list = rows && layout.n_lists() > 1;
+    if (by_list)
         ensure_capacity(by_list_, "search/groups/by_list", layout.n_rows() * layout.n_lists());
+    by_list_row_ = by_list ? by_list_.data() : nullptr;
     // Rows of nodes that are not active are never recorded.
-    if (rows && layout.n_lists() > 1 && layout.active().size() > 0) Kokkos::deep_copy(by_list_, 0);
+    if (by_list && layout.active().size() > 0) Kokkos::deep_copy(by_list_, 0);
 }
 
 void RowStore::begin_sweep(Offset arena_bytes, Offset expected_bytes) {
@@ -48,15 +50,27 @@ Slot* RowStore::room(Worker& worker, Offset n) {
     return worker.row.data();
 }
 
+/// How many of the ascending slots are below `end`: without a branch that guesses, where few.
+Slot count_below(const Slot* slots, Offset n, Offset end) {
+    constexpr Offset few = 256;
+    if (n > few) return static_cast<Slot>(std::lower_bound(slots, slots + n, end) - slots);
+    const Slot below = static_cast<Slot>(end);
+    Slot count = 0;
+    for (Offset k = 0; k < n; ++k) count += slots[k] < below ? 1 : 0;
+    return count;
+}
+
 void RowStore::count_lists(Offset row, const Slot* slots, Offset n) {
     const int n_lists = layout_->n_lists();
     if (n_lists == 1) return;
-    const Slot* from = slots;
-    for (int l = 0; l < n_lists; ++l) {
-        const Slot* const to = std::lower_bound(from, slots + n, layout_->list_offset()[l + 1]);
-        by_list_(row * n_lists + l) = static_cast<Slot>(to - from);
-        from = to;
+    Slot* const counts = &by_list_(row * n_lists);
+    Slot before = 0;
+    for (int l = 0; l + 1 < n_lists; ++l) {
+        const Slot upto = count_below(slots, n, layout_->list_offset()[l + 1]);
+        counts[l] = upto - before;
+        before = upto;
     }
+    counts[n_lists - 1] = static_cast<Slot>(n) - before;
 }
 
 void RowStore::store(int worker_number, const FoundRow& found) {

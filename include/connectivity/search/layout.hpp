@@ -50,9 +50,15 @@ public:
     friend bool operator==(const SlotLayout&, const SlotLayout&) = default;
 
 private:
-    /// The list k with offsets[k] <= at < offsets[k+1]; empty lists are skipped.
+    /// The list k with offsets[k] <= at < offsets[k+1]; empty lists are skipped. Of few lists each
+    /// is looked at: slots come in any order, and a branch would guess wrong every other time.
     static int find(const std::vector<Offset>& offsets, Offset at) {
-        if (offsets.size() == 2) return 0;
+        constexpr std::size_t few = 8;
+        if (offsets.size() <= few + 1) {
+            int k = 0;
+            for (std::size_t l = 1; l + 1 < offsets.size(); ++l) k += offsets[l] <= at ? 1 : 0;
+            return k;
+        }
         return static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), at) -
                                 offsets.begin()) -
                1;
