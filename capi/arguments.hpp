@@ -9,6 +9,8 @@
 
 #include <connectivity/base/error.hpp>
 
+#include "index_base.hpp"
+
 namespace connectivity::capi {
 
 /// Handles in one call: node lists, fields.
@@ -41,9 +43,10 @@ T& required(T* pointer, const std::string& name) {
     return *pointer;
 }
 
-inline void check_capacity(std::int64_t capacity, std::int64_t needed) {
+inline void check_capacity(std::int64_t capacity, std::int64_t needed,
+                           const std::string& name = "capacity") {
     if (capacity < needed)
-        throw Error(Status::buffer, "capacity = " + std::to_string(capacity) +
+        throw Error(Status::buffer, name + " = " + std::to_string(capacity) +
                                         ", must be at least " + std::to_string(needed));
 }
 
@@ -56,6 +59,14 @@ void copy_out(const Values& values, T* buffer, std::int64_t capacity, std::int64
     if (buffer == nullptr) return;
     check_capacity(capacity, n);
     std::copy_n(values.data(), n, buffer);
+}
+
+/// The same for numbers of nodes.
+template <class Values>
+void copy_nodes_out(const Values& values, IndexBase base, Slot* buffer, std::int64_t capacity,
+                    std::int64_t* count) {
+    copy_out(values, buffer, capacity, count);
+    if (buffer != nullptr) base.copy_out(buffer, *count, buffer);
 }
 
 }  // namespace connectivity::capi

@@ -14,11 +14,19 @@ namespace {
     throw Error(status, what + " = " + std::to_string(value) + ", must be " + allowed);
 }
 
-std::size_t element_size(std::int32_t dtype) {
-    return dtype == CONN_FLOAT32 ? sizeof(float) : sizeof(double);
+void check_dtype(std::int32_t dtype, Numbers numbers, const std::string& name) {
+    const bool is_real = dtype == CONN_FLOAT64 || dtype == CONN_FLOAT32,
+               is_whole = dtype == CONN_INT32 || dtype == CONN_INT64;
+    if (numbers == Numbers::real && !is_real)
+        refuse(Status::argument, name + ".dtype", dtype, "CONN_FLOAT64 or CONN_FLOAT32");
+    if (numbers == Numbers::whole && !is_whole)
+        refuse(Status::argument, name + ".dtype", dtype, "CONN_INT32 or CONN_INT64");
+    if (!is_real && !is_whole)
+        refuse(Status::argument, name + ".dtype", dtype,
+               "CONN_FLOAT64, CONN_FLOAT32, CONN_INT32 or CONN_INT64");
 }
 
-void check_kind(const conn_array& a, const std::string& name) {
+void check_kind(const conn_array& a, Numbers numbers, const std::string& name) {
     if (a.space == CONN_SPACE_DEVICE || a.space == CONN_SPACE_MANAGED)
         throw Error(Status::unsupported,
                     name +
@@ -26,8 +34,7 @@ void check_kind(const conn_array& a, const std::string& name) {
                         "memory");
     if (a.space != CONN_SPACE_HOST && a.space != CONN_SPACE_HOST_PINNED)
         refuse(Status::argument, name + ".space", a.space, "one of CONN_SPACE_*");
-    if (a.dtype != CONN_FLOAT64 && a.dtype != CONN_FLOAT32)
-        refuse(Status::argument, name + ".dtype", a.dtype, "CONN_FLOAT64 or CONN_FLOAT32");
+    check_dtype(a.dtype, numbers, name);
     if (a.ndim != 1 && a.ndim != 2) refuse(Status::argument, name + ".ndim", a.ndim, "1 or 2");
 }
 
@@ -39,14 +46,24 @@ void check_reach(Offset extent, Offset stride, const std::string& name) {
         refuse(Status::argument, name, stride, "small enough to address all elements");
 }
 
-void check_array(const conn_array& a, int n_components, const std::string& name) {
-    check_kind(a, name);
+}  // namespace
+
+std::size_t element_size(std::int32_t dtype) {
+    return dtype == CONN_FLOAT32 || dtype == CONN_INT32 ? 4 : 8;
+}
+
+void check_array(const conn_array& a, Numbers numbers, Offset n_components,
+                 const std::string& name) {
+    check_kind(a, numbers, name);
     if (a.extent[0] < 0) refuse(Status::argument, name + ".extent[0]", a.extent[0], ">= 0");
     if (a.extent[0] > max_slots)
         refuse(Status::too_many, name + ".extent[0]", a.extent[0],
                "at most " + std::to_string(max_slots));
     const Offset components = a.ndim == 2 ? a.extent[1] : 1;
-    if (components != n_components)
+    if (n_components == 0 && (components < 1 || components > max_slots))
+        refuse(Status::argument, name + ".extent[1]", components,
+               "in [1, " + std::to_string(max_slots) + "]");
+    if (n_components != 0 && components != n_components)
         refuse(Status::argument, name + (a.ndim == 2 ? ".extent[1]" : ".ndim = 1: components"),
                components, std::to_string(n_components));
     check_reach(a.extent[0], a.stride[0], name + ".stride[0]");
@@ -58,6 +75,8 @@ void check_array(const conn_array& a, int n_components, const std::string& name)
         throw Error(Status::argument, name + ".data is not aligned to its " +
                                           std::to_string(element_size(a.dtype)) + "-byte elements");
 }
+
+namespace {
 
 const void* element(const conn_array& a, Offset index) {
     if (a.extent[0] == 0) return nullptr;
@@ -94,7 +113,7 @@ Columns read_columns(const conn_array* arrays, std::int32_t n_arrays, int n_comp
         const conn_array& a = arrays[k];
         const std::string which =
             n_arrays == 1 ? std::string(name) : std::string(name) + "[" + std::to_string(k) + "]";
-        check_array(a, n_components / n_arrays, which);
+        check_array(a, Numbers::real, n_components / n_arrays, which);
         if (a.extent[0] != columns.n)
             refuse(Status::argument, which + ".extent[0]", a.extent[0],
                    std::to_string(columns.n) + " as in the first");
@@ -106,6 +125,14 @@ Columns read_columns(const conn_array* arrays, std::int32_t n_arrays, int n_comp
         }
     }
     return columns;
+}
+
+WholeNumbers::WholeNumbers(const conn_array& array, const std::string& name) {
+    check_array(array, Numbers::whole, 1, name);
+    data_ = array.data;
+    n_ = array.extent[0];
+    stride_ = array.stride[0];
+    is_wide_ = array.dtype == CONN_INT64;
 }
 
 void copy_columns(const Columns& columns, double* out) {

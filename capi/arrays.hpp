@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-/// Strided arrays of the host: checked, then copied once into our interleaved double layout.
+/// Strided arrays of the host: checked, and copied once into our own layout where they are kept.
 
 #include <array>
+#include <string>
 
 #include <connectivity/base/spaces.hpp>
 
 #include "connectivity.h"
 
 namespace connectivity::capi {
+
+/// Types of elements that an argument may have.
+enum class Numbers { real, whole, any };
+
+/// Throws Error: null, argument, too_many, unsupported; n_components 0: any number of them, at
+/// least 1; `name` is the argument's.
+void check_array(const conn_array& array, Numbers numbers, Offset n_components,
+                 const std::string& name);
+
+/// 4 or 8 bytes.
+std::size_t element_size(std::int32_t dtype);
 
 /// Component c of node i is the element i * stride[c] from data[c]. All components have one type.
 struct Columns {
@@ -28,5 +40,22 @@ Columns read_columns(const conn_array* arrays, std::int32_t n_arrays, int n_comp
 
 /// out[i * n_components + c] = component c of node i. Cannot fail.
 void copy_columns(const Columns& columns, double* out);
+
+/// Whole numbers [n], 32 or 64 bits wide. Throws as check_array.
+class WholeNumbers {
+public:
+    WholeNumbers(const conn_array& array, const std::string& name);
+
+    Offset size() const { return n_; }
+    std::int64_t operator[](Offset k) const {
+        return is_wide_ ? static_cast<const std::int64_t*>(data_)[k * stride_]
+                        : static_cast<const std::int32_t*>(data_)[k * stride_];
+    }
+
+private:
+    const void* data_;
+    Offset n_, stride_;
+    bool is_wide_;
+};
 
 }  // namespace connectivity::capi

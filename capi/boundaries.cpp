@@ -3,7 +3,7 @@
 
 #include "arguments.hpp"
 #include "guard.hpp"
-#include "objects.hpp"
+#include "map_work.hpp"
 #include "structs.hpp"
 
 using namespace connectivity;
@@ -119,7 +119,7 @@ conn_status conn_boundaries_update(conn_boundaries* boundaries, conn_map* map,
         if (options.active.size() > 0)
             throw Error(Status::argument,
                         "the option active of the map must be NULL: it cannot know the ghosts");
-        ours.update(*handle.map, nodes, options, ghosts);
+        work_on(handle, "boundaries", [&] { ours.update(*handle.map, nodes, options, ghosts); });
     });
 }
 

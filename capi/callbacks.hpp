@@ -5,6 +5,7 @@
 
 #include "connectivity.h"
 #include "guard.hpp"
+#include "index_base.hpp"
 
 namespace connectivity::capi {
 
@@ -19,18 +20,20 @@ auto ask_host(F function, Arguments... arguments) {
 struct HostPredicate {
     conn_pair_predicate predicate;
     void* user_data;
+    IndexBase base;
 
     bool operator()(std::int32_t i, std::int32_t j) const {
-        return ask_host(predicate, user_data, i, j) != 0;
+        return ask_host(predicate, user_data, base.out(i), base.out(j)) != 0;
     }
 };
 
 struct HostFunction {
     conn_pair_function function;
     void* user_data;
+    IndexBase base;
 
     double operator()(std::int32_t i, std::int32_t j) const {
-        return ask_host(function, user_data, i, j);
+        return ask_host(function, user_data, base.out(i), base.out(j));
     }
 };
 

@@ -25,13 +25,13 @@
  * conn_last_error, texts and versions (CONN_E_CALLBACK); nor wait for a thread that does.
  *
  * Hosts include this header alone. Its parts are files beside it, each complete in itself;
- * connectivity_query.h is not one of them: it is experimental, and for hosts that ask for it.
+ * connectivity_boundary.h (ghosts behind boundaries) and connectivity_query.h (single nodes,
+ * checks) are not among them: they are experimental, for hosts that ask for them.
  */
 #ifndef CONNECTIVITY_H
 #define CONNECTIVITY_H
 
 #include "connectivity_base.h"
-#include "connectivity_boundary.h"
 #include "connectivity_fields.h"
 #include "connectivity_map.h"
 #include "connectivity_nodes.h"

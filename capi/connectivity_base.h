@@ -54,7 +54,9 @@ CONN_API void conn_set_error(const char* text);
 CONN_API int32_t conn_version(void);
 /** CONN_VERSION_STRING of the library that is loaded. */
 CONN_API const char* conn_version_string(void);
-/** How the library was built: a JSON object, static text. */
+/** How the library was built, a JSON object, static text: "version", "kokkos", "backends" (names),
+ * "device" (whether one of them is no host), "kokkos_linkage" ("private", "shared"), "spaces" of
+ * arrays that are read, "compiler", "max_nodes", "asserts". */
 CONN_API const char* conn_build_info(void);
 /** Optional. Stops Kokkos if the library started it, and frees all memory of handles and views. It
  * cannot be started again in this process: later calls return CONN_E_FINALIZED. */
@@ -69,7 +71,8 @@ enum {
     CONN_STRUCT_PAIRS_VIEW = 6,
     CONN_STRUCT_REPORT_ENTRY = 7,
     CONN_STRUCT_INTERSECTION_VIEW = 8,
-    CONN_STRUCT_BOUNDARY_NODES = 9
+    CONN_STRUCT_BOUNDARY_NODES = 9,
+    CONN_STRUCT_ESTIMATE = 10
 };
 /** sizeof of a struct in the library that is loaded, for hosts that mirror the structs in another
  * language; 0 if there is no such struct. */
@@ -79,8 +82,11 @@ CONN_API int64_t conn_abi_sizeof(int32_t which);
 /** @name Arrays of the host
  * Read during the call only; nothing of the host is kept. Component c of node i is
  * data[i*stride[0] + c*stride[1]], strides counted in elements, of any sign; 0 repeats one value.
- * x(3,n) of Fortran or a C array of structs: extent {n, 3}, stride {3, 1}; x(n,3): extent {n, 3},
- * stride {1, n}. data may be NULL if extent[0] is 0. With ndim 1 the second entries are not read.
+ * x(3,n) of Fortran or a C array x[n][3]: conn_array_matrix; x(n,3) of Fortran or x[3][n]:
+ * conn_array_planar; separate x, y, z: three of conn_array_vector, where a function takes one array
+ * for each component. data may be NULL if extent[0] is 0. With ndim 1 the second entries are not
+ * read. Numbers that a function does not take are CONN_E_ARGUMENT, memory that this build does not
+ * reach CONN_E_UNSUPPORTED.
  */
 /**@{*/
 enum { /* Where memory is. This version reads the first two. */
@@ -89,28 +95,60 @@ enum { /* Where memory is. This version reads the first two. */
        CONN_SPACE_DEVICE = 2,
        CONN_SPACE_MANAGED = 3
 };
-enum { CONN_FLOAT64 = 0, CONN_FLOAT32 = 1 };
+enum { CONN_FLOAT64 = 0, CONN_FLOAT32 = 1, CONN_INT32 = 2, CONN_INT64 = 3 };
 
 typedef struct conn_array {
     const void* data;
     int32_t space;     /**< CONN_SPACE_HOST, ... */
     int32_t device_id; /**< of CONN_SPACE_DEVICE */
-    int32_t dtype;     /**< CONN_FLOAT64, CONN_FLOAT32 */
+    int32_t dtype;     /**< CONN_FLOAT64, ... */
     int32_t ndim;      /**< 1 or 2 */
     int64_t extent[2]; /**< nodes, components */
     int64_t stride[2]; /**< elements from node to node, from component to component */
 } conn_array;
 
-/** n values one after the other. */
-static inline conn_array conn_array_vector(const double* data, int64_t n) {
-    conn_array a = {data, CONN_SPACE_HOST, 0, CONN_FLOAT64, 1, {n, 1}, {1, 1}};
+/** n values one after the other, of any of the four types. */
+static inline conn_array conn_array_of(int32_t dtype, const void* data, int64_t n) {
+    conn_array a = {data, CONN_SPACE_HOST, 0, dtype, 1, {n, 1}, {1, 1}};
     return a;
 }
+static inline conn_array conn_array_vector(const double* data, int64_t n) {
+    return conn_array_of(CONN_FLOAT64, data, n);
+}
+static inline conn_array conn_array_vector_float(const float* data, int64_t n) {
+    return conn_array_of(CONN_FLOAT32, data, n);
+}
+static inline conn_array conn_array_vector_int32(const int32_t* data, int64_t n) {
+    return conn_array_of(CONN_INT32, data, n);
+}
+static inline conn_array conn_array_vector_int64(const int64_t* data, int64_t n) {
+    return conn_array_of(CONN_INT64, data, n);
+}
 /** n nodes one after the other, the components of a node together: x[n][n_components]. */
-static inline conn_array conn_array_matrix(const double* data, int64_t n, int64_t n_components) {
-    conn_array a = {
-        data, CONN_SPACE_HOST, 0, CONN_FLOAT64, 2, {n, n_components}, {n_components, 1}};
+static inline conn_array conn_array_matrix_of(int32_t dtype, const void* data, int64_t n,
+                                              int64_t n_components) {
+    conn_array a = {data, CONN_SPACE_HOST, 0, dtype, 2, {n, n_components}, {n_components, 1}};
     return a;
+}
+static inline conn_array conn_array_matrix(const double* data, int64_t n, int64_t n_components) {
+    return conn_array_matrix_of(CONN_FLOAT64, data, n, n_components);
+}
+static inline conn_array conn_array_matrix_float(const float* data, int64_t n,
+                                                 int64_t n_components) {
+    return conn_array_matrix_of(CONN_FLOAT32, data, n, n_components);
+}
+/** The components one after the other, the nodes of a component together: x[n_components][n]. */
+static inline conn_array conn_array_planar_of(int32_t dtype, const void* data, int64_t n,
+                                              int64_t n_components) {
+    conn_array a = {data, CONN_SPACE_HOST, 0, dtype, 2, {n, n_components}, {1, n}};
+    return a;
+}
+static inline conn_array conn_array_planar(const double* data, int64_t n, int64_t n_components) {
+    return conn_array_planar_of(CONN_FLOAT64, data, n, n_components);
+}
+static inline conn_array conn_array_planar_float(const float* data, int64_t n,
+                                                 int64_t n_components) {
+    return conn_array_planar_of(CONN_FLOAT32, data, n, n_components);
 }
 /**@}*/
 

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /**
  * @file connectivity_boundary.h
- * Boundaries: ghosts behind reflecting and periodic planes, made, placed and culled by the library.
- * See connectivity.h.
+ * EXPERIMENTAL: ghosts behind reflecting and periodic planes, made, placed and culled by the
+ * library.
+ *
+ * Not part of connectivity.h and of its promise: until hosts have used them, these functions may
+ * change or go in any version. Hosts that want them include this header; errors, handles and
+ * threads are as connectivity.h says.
  */
 #ifndef CONNECTIVITY_BOUNDARY_H
 #define CONNECTIVITY_BOUNDARY_H
 
-#include "connectivity_map.h"
+#include "connectivity.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -69,7 +73,7 @@ typedef struct conn_boundary_nodes {
     const double* h;          /**< [n], NULL for tensors */
     const double* H;          /**< [n][dim*(dim+1)/2], NULL for scalars */
     const int32_t* owner;     /**< [n - n_internal] the internal node that each ghost is finally an
-                                 image     of; NULL without ghosts */
+                                 image of; NULL without ghosts */
     const int64_t* global_id; /**< [n] ghosts have that of their owner; NULL if none were set */
 } conn_boundary_nodes;
 #define CONN_BOUNDARY_NODES_INIT \

@@ -66,11 +66,17 @@ typedef struct conn_map_options {
     const uint8_t* interactions; /**< [n_lists][n_lists] symmetric, 0 or 1: which lists see each
                                       other. NULL: all do */
     int64_t n_interactions;      /**< n_lists * n_lists of the rebuild; 0 with NULL */
+    int32_t index_base;          /**< 0 or 1, the number of the first node: nodes and slots that go
+                                      in or out count from it, and a slot is list_offset[list] +
+                                      node. Positions count from 0: offsets, ranks, rows, pairs,
+                                      lists; numbers in texts, too. With 1, views are copies that
+                                      the map keeps. Chosen by conn_map_create for good */
+    int32_t reserved_3;          /**< 0 */
 } conn_map_options;
 #define CONN_MAP_OPTIONS_INIT                                                             \
     {                                                                                     \
         sizeof(conn_map_options), 1, 1, 0, 0, CONN_GATHER_SCATTER, CONN_METHOD_AUTOMATIC, \
-            {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0, 0, NULL, 0, NULL, 0        \
+            {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0, 0, NULL, 0, NULL, 0, 0, 0  \
     }
 
 /** Sets the defaults; size is sizeof *options. */
@@ -81,8 +87,9 @@ CONN_API conn_status conn_map_create(conn_context* context, const conn_map_optio
 CONN_API conn_status conn_map_destroy(conn_map** map);
 /** Options of the next rebuilds; the present lists stay. The arrays active and interactions are
  * copied here: a host with other active nodes in every step sets its options in every step.
- * CONN_E_ARGUMENT for active together with overlap or intersection, which need all nodes, and for
- * these and pairs with another mode than CONN_GATHER_SCATTER. */
+ * NULL: the defaults. CONN_E_ARGUMENT for active together with overlap or intersection, which need
+ * all nodes, for these and pairs with another mode than CONN_GATHER_SCATTER, and for another
+ * index_base than the map's. */
 CONN_API conn_status conn_map_set_options(conn_map* map, const conn_map_options* options);
 /** Whether a pair of slots, slot_i < slot_j, is left out: 0 keeps it. Called from several threads
  * at once and more than once for a pair: the answer must depend on the two slots alone. What it
@@ -97,6 +104,27 @@ CONN_API conn_status conn_map_set_exclusion(conn_map* map, conn_pair_predicate p
  * error the lists of the last rebuild stay as they are. CONN_E_BUDGET names the bytes needed and
  * allowed. */
 CONN_API conn_status conn_map_rebuild(conn_map* map, conn_nodes* const* lists, int32_t n_lists);
+typedef struct conn_estimate {
+    size_t struct_size;
+    int64_t n_entries;  /**< neighbours in all rows; 0 if rows were not asked for */
+    int64_t n_pairs;    /**< 0 if pairs were not asked for */
+    int64_t bytes;      /**< of rows, pairs and orders, in a map without spare memory; overlap and
+                             intersections are not in it */
+    int64_t peak_bytes; /**< bytes, and what the search holds beside them: nodes, order, 16 bytes
+                             a node and every found row until all are counted, in memory that
+                             may be half empty; rows once more where lists are made from them */
+    int64_t n_sampled;  /**< nodes whose neighbours were counted */
+    double relative_error; /**< standard error of n_entries and n_pairs over their values; 0: they
+                                are exact */
+} conn_estimate;
+#define CONN_ESTIMATE_INIT \
+    { sizeof(conn_estimate), 0, 0, 0, 0, 0, 0 }
+/** What a rebuild with these lists would make, while nothing is stored and the map stays as it is.
+ * Exact up to 20000 nodes with a row; beyond from a sample of about 4096, always the same ones,
+ * which takes 10 to 30 % of the time of a rebuild. Fails as conn_map_rebuild does, but for the
+ * budget, which does not count here. */
+CONN_API conn_status conn_map_estimate(const conn_map* map, conn_nodes* const* lists,
+                                       int32_t n_lists, conn_estimate* estimate);
 /** Whether the lists of the last rebuild may miss a neighbour among these nodes, which may have
  * moved and changed their supports since. *needed is 0 while the drift, twice the largest
  * displacement plus the largest growth of a support radius, is at most the skin of that rebuild;
@@ -119,12 +147,19 @@ typedef struct conn_map_info {
     int64_t n_rows;    /**< stored nodes: internal ones, or all if ghosts have rows */
     int64_t n_entries; /**< neighbours in all rows; 0 if rows were not asked for */
     int64_t n_pairs;   /**< 0 if pairs were not asked for */
-    int64_t bytes;     /**< held by the map's products, and for sums along rows */
+    int64_t bytes;     /**< held by the map, as conn_map_memory says, but for old views */
     int32_t dim, n_lists, n_report_entries, n_report_counters;
 } conn_map_info;
 #define CONN_MAP_INFO_INIT \
     { sizeof(conn_map_info), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 CONN_API conn_status conn_map_get_info(const conn_map* map, conn_map_info* info);
+/** *bytes: what the map holds in a space now: lists, spare memory for the next rebuild, copies for
+ * views and sums, and lists of older generations that acquired views still pin. *high_water: the
+ * most of it that any call on the map has left behind since the map was made; it never goes back.
+ * What a call holds only in passing is not in it, see conn_map_estimate; nor are pair fields and
+ * boundaries. Either output may be NULL. CONN_E_UNSUPPORTED for a space this build does not use. */
+CONN_API conn_status conn_map_memory(const conn_map* map, int32_t space, int64_t* bytes,
+                                     int64_t* high_water);
 
 /** list_offset [n_lists + 1]: first slot of each list. row_offset [n_lists + 1]: first row of each
  * list; node a of list k has row row_offset[k] + a. capacity is the length of both arrays, of which
@@ -132,12 +167,13 @@ CONN_API conn_status conn_map_get_info(const conn_map* map, conn_map_info* info)
 CONN_API conn_status conn_map_offsets(const conn_map* map, int64_t* list_offset,
                                       int64_t* row_offset, int64_t capacity, int64_t* count);
 /** Nodes of a list in an order that keeps neighbours close in memory, internal ones first: nodes
- * [n of the list], a permutation. With nodes NULL only *count is set; CONN_E_BUFFER sets it, too.
- */
+ * [n of the list], a permutation, as conn_reorder takes it. With nodes NULL only *count is set;
+ * CONN_E_BUFFER sets it, too. CONN_E_NOT_BUILT without the option spatial_order. */
 CONN_API conn_status conn_map_spatial_order(const conn_map* map, int32_t list, int32_t* nodes,
                                             int64_t capacity, int64_t* count);
-/** The order of CONN_ORDER_KEY, each array [n_slots] or NULL: slots by rank, ranks by slot, Morton
- * keys by rank. *count receives n_slots, also with CONN_E_BUFFER. CONN_E_NOT_BUILT in slot order.
+/** The order of CONN_ORDER_KEY, each array [n_slots] or NULL: slots by rank, ranks by position of
+ * the slot, Morton keys by rank. *count receives n_slots, also with CONN_E_BUFFER. CONN_E_NOT_BUILT
+ * in slot order.
  */
 CONN_API conn_status conn_map_key_order(const conn_map* map, int32_t* slots, int32_t* ranks,
                                         uint64_t* keys, int64_t capacity, int64_t* count);
@@ -146,6 +182,14 @@ CONN_API conn_status conn_map_key_order(const conn_map* map, int32_t* slots, int
  * too. */
 CONN_API conn_status conn_map_traversal(const conn_map* map, int32_t list, int32_t* nodes,
                                         int64_t capacity, int64_t* count);
+/** Puts a field of the host in another order: node k of out becomes node order[k] of in. order [n],
+ * n being in->extent[0], is a permutation that counts from index_base, 0 or 1. in: 1 or 2
+ * dimensions, any dtype, strides as they are but no 0, and no element twice. out: the address of
+ * component 0 of node 0, the rest laid out as in. out may be in->data: the field is then copied
+ * first. Otherwise the two must not overlap. CONN_E_ARGUMENT names what is wrong, and out is then
+ * untouched. */
+CONN_API conn_status conn_reorder(const conn_array* in, const int32_t* order, int64_t n,
+                                  int32_t index_base, void* out);
 /**@}*/
 
 /** @name Any two nodes

@@ -43,8 +43,8 @@ typedef struct conn_query conn_query;
 CONN_API conn_status conn_query_create(conn_context* context, conn_query** query);
 CONN_API conn_status conn_query_destroy(conn_query** query);
 /** Takes the nodes of lists[n_lists], at least one, all of one dimension dim. Of domain only
- * periodic, box_lo and box_hi are read; NULL: open on all axes. Fails as conn_map_rebuild does, and
- * what was taken before then stays. */
+ * periodic, box_lo, box_hi and index_base are read; NULL: open on all axes, slots from 0. Fails as
+ * conn_map_rebuild does, and what was taken before then stays. */
 CONN_API conn_status conn_query_update(conn_query* query, conn_nodes* const* lists, int32_t n_lists,
                                        const conn_map_options* domain);
 /** Exactly the nodes that this node sees, that see it, or either, by mode; never the node itself,

@@ -15,8 +15,8 @@ extern "C" {
 /** @name Views: the lists themselves, without a copy
  * A view is pinned: its arrays stay valid and unchanged until it is released, through rebuilds,
  * patches and the end of the map. A rebuild while a view is held takes new memory; release first to
- * reuse it. A view is current while its generation is that of the map. Arrays of length 0 may be
- * NULL. */
+ * reuse it. Slots count from the map's index_base, all else from 0. A view is current while its
+ * generation is that of the map. Arrays of length 0 may be NULL. */
 /**@{*/
 typedef struct conn_rows_view {
     size_t struct_size;
@@ -48,8 +48,8 @@ typedef struct conn_pairs_view {
     int32_t device_id;
     int32_t reserved;
     const int64_t* offsets;     /**< [n_slots + 1]; the pairs whose first node is r are
-                                     [offsets[r] .. offsets[r+1]). r is a slot; in key order a rank,
-                                     that of the node slots[r] */
+                                     [offsets[r] .. offsets[r+1]). r is a slot, less the index_base;
+                                     in key order a rank, that of the node slots[r] */
     const int32_t* i;           /**< [n_pairs] slots, or NULL unless CONN_PAIRS_EXPAND was asked
                                      for */
     const int32_t* j;           /**< [n_pairs] slots, i < j, pairs sorted by (i, j); in key order
@@ -58,7 +58,8 @@ typedef struct conn_pairs_view {
     const int64_t* list_offset; /**< [n_lists + 1] */
     void* owner;                /**< private */
     const int32_t* slots;       /**< [n_slots] slot by rank, of key order; NULL in slot order */
-    const int32_t* ranks;       /**< [n_slots] rank by slot, of key order; NULL in slot order */
+    const int32_t* ranks;       /**< [n_slots] rank by slot less the index_base, of key order;
+                                     NULL in slot order */
 } conn_pairs_view;
 #define CONN_PAIRS_VIEW_INIT \
     { sizeof(conn_pairs_view), 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL }
@@ -103,6 +104,19 @@ CONN_API conn_status conn_map_overlap_acquire(const conn_map* map, int32_t space
 CONN_API conn_status conn_map_intersection_acquire(const conn_map* map, int32_t space,
                                                    conn_intersection_view* view);
 CONN_API conn_status conn_map_intersection_release(conn_intersection_view* view);
+/**@}*/
+
+/** @name Copies into arrays of the host
+ * A NULL array is not written. The sizes are always set; CONN_E_BUFFER, before anything is written,
+ * if an array that is not NULL has less room. CONN_E_NOT_BUILT as for views. */
+/**@{*/
+/** offsets [n_rows*n_lists + 1] and slots [n_entries], as in conn_rows_view. */
+CONN_API conn_status conn_map_rows_copy(const conn_map* map, int64_t* offsets,
+                                        int64_t offsets_capacity, int64_t* n_offsets,
+                                        int32_t* slots, int64_t slots_capacity, int64_t* n_slots);
+/** i, j and coupling [n_pairs]; coupling is 1 where none was set. */
+CONN_API conn_status conn_map_pairs_copy(const conn_map* map, int32_t* i, int32_t* j,
+                                         double* coupling, int64_t capacity, int64_t* n_pairs);
 /**@}*/
 
 #ifdef __cplusplus

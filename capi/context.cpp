@@ -20,11 +20,16 @@ void check_options(const conn_context_options& o) {
     if (o.budget_bytes < 0)
         throw Error(Status::argument,
                     "options->budget_bytes = " + std::to_string(o.budget_bytes) + ", must be >= 0");
-#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && !defined(KOKKOS_ENABLE_SYCL)
-    if (o.device_id >= 0)
+    const bool has_device = runtime_has_device();
+    if (o.stream != nullptr)
+        throw Error(Status::unsupported,
+                    has_device ? "options->stream is set, but this version runs its kernels in the "
+                                 "stream of its own; use NULL"
+                               : "options->stream is set, but this build has no device backend; "
+                                 "use NULL");
+    if (o.device_id >= 0 && !has_device)
         throw Error(Status::unsupported, "options->device_id = " + std::to_string(o.device_id) +
                                              ", but this build has no device backend; use -1");
-#endif
 }
 
 void check_threads(std::int32_t asked) {
@@ -60,6 +65,19 @@ conn_status conn_context_create(const conn_context_options* options, conn_contex
 
 conn_status conn_context_destroy(conn_context** context) {
     return guarded(__func__, [&] { Registry::instance().destroy(context, "context"); });
+}
+
+conn_status conn_context_set_log(conn_context* context, int32_t level, conn_log_callback callback,
+                                 void* user_data) {
+    return guarded_with_runtime(__func__, [&] {
+        auto& ours = Registry::instance().get<conn_context>(context, "context");
+        if (level < CONN_LOG_NONE || level > CONN_LOG_DEBUG)
+            throw Error(Status::argument,
+                        "level = " + std::to_string(level) + ", must be one of CONN_LOG_*");
+        if (level != CONN_LOG_NONE && callback == nullptr)
+            throw Error(Status::null, "callback is NULL, but level is not CONN_LOG_NONE");
+        *ours.log = {level, callback, user_data};
+    });
 }
 
 conn_status conn_context_threads(const conn_context* context, int32_t* n_threads) {

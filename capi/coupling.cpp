@@ -2,20 +2,15 @@
 #include "arguments.hpp"
 #include "callbacks.hpp"
 #include "guard.hpp"
-#include "objects.hpp"
+#include "map_work.hpp"
 
 using namespace connectivity;
 using namespace connectivity::capi;
 
-namespace {
-NodePairList& pairs_of(conn_map* map) {
-    return Registry::instance().get<conn_map>(map, "map").map->pairs();
-}
-}  // namespace
-
 conn_status conn_map_set_coupling(conn_map* map, const double* values, int64_t n_pairs) {
     return guarded_with_runtime(__func__, [&] {
-        NodePairList& pairs = pairs_of(map);
+        auto& ours = Registry::instance().get<conn_map>(map, "map");
+        NodePairList& pairs = ours.map->pairs();
         if (values == nullptr && n_pairs == 0) return pairs.clear_coupling();
         required(values, "values");
         if (n_pairs != pairs.size())
@@ -24,14 +19,17 @@ conn_status conn_map_set_coupling(conn_map* map, const double* values, int64_t n
                                               " as in the pair list");
         const auto numbers = pairs.view();
         pairs.set_coupling([&](Slot i, Slot j) { return values[numbers.find(i, j)]; });
+        note_memory(ours);
     });
 }
 
 conn_status conn_map_set_coupling_function(conn_map* map, conn_pair_function function,
                                            void* user_data) {
     return guarded_with_runtime(__func__, [&] {
-        NodePairList& pairs = pairs_of(map);
+        auto& ours = Registry::instance().get<conn_map>(map, "map");
+        NodePairList& pairs = ours.map->pairs();
         required(function, "function");
-        pairs.set_coupling(HostFunction{function, user_data});
+        pairs.set_coupling(HostFunction{function, user_data, ours.base});
+        note_memory(ours);
     });
 }

@@ -8,7 +8,7 @@
 
 #include <connectivity/base/error.hpp>
 
-#include "connectivity.h"
+#include "connectivity_boundary.h"
 
 namespace {
 
@@ -32,13 +32,14 @@ CONN_CHECK_OFFSET(conn_array, ndim, 20);
 CONN_CHECK_OFFSET(conn_array, extent, 24);
 CONN_CHECK_OFFSET(conn_array, stride, 40);
 
-static_assert(is_plain<conn_context_options> && sizeof(conn_context_options) == 24);
+static_assert(is_plain<conn_context_options> && sizeof(conn_context_options) == 32);
 CONN_CHECK_OFFSET(conn_context_options, struct_size, 0);
 CONN_CHECK_OFFSET(conn_context_options, n_threads, 8);
 CONN_CHECK_OFFSET(conn_context_options, device_id, 12);
 CONN_CHECK_OFFSET(conn_context_options, budget_bytes, 16);
+CONN_CHECK_OFFSET(conn_context_options, stream, 24);
 
-static_assert(is_plain<conn_map_options> && sizeof(conn_map_options) == 160);
+static_assert(is_plain<conn_map_options> && sizeof(conn_map_options) == 168);
 CONN_CHECK_OFFSET(conn_map_options, struct_size, 0);
 CONN_CHECK_OFFSET(conn_map_options, rows, 8);
 CONN_CHECK_OFFSET(conn_map_options, pairs, 12);
@@ -60,6 +61,17 @@ CONN_CHECK_OFFSET(conn_map_options, active, 128);
 CONN_CHECK_OFFSET(conn_map_options, n_active, 136);
 CONN_CHECK_OFFSET(conn_map_options, interactions, 144);
 CONN_CHECK_OFFSET(conn_map_options, n_interactions, 152);
+CONN_CHECK_OFFSET(conn_map_options, index_base, 160);
+CONN_CHECK_OFFSET(conn_map_options, reserved_3, 164);
+
+static_assert(is_plain<conn_estimate> && sizeof(conn_estimate) == 56);
+CONN_CHECK_OFFSET(conn_estimate, struct_size, 0);
+CONN_CHECK_OFFSET(conn_estimate, n_entries, 8);
+CONN_CHECK_OFFSET(conn_estimate, n_pairs, 16);
+CONN_CHECK_OFFSET(conn_estimate, bytes, 24);
+CONN_CHECK_OFFSET(conn_estimate, peak_bytes, 32);
+CONN_CHECK_OFFSET(conn_estimate, n_sampled, 40);
+CONN_CHECK_OFFSET(conn_estimate, relative_error, 48);
 
 static_assert(is_plain<conn_map_info> && sizeof(conn_map_info) == 72);
 CONN_CHECK_OFFSET(conn_map_info, struct_size, 0);
@@ -153,7 +165,9 @@ static_assert(CONN_E_FINALIZED == 17 && CONN_E_FORKED == 18 && CONN_E_FILE == 19
 static_assert(CONN_E_FORMAT == 20 && CONN_E_CALLBACK == 21 && CONN_E_INTERNAL == -1);
 static_assert(CONN_SPACE_HOST == 0 && CONN_SPACE_HOST_PINNED == 1 && CONN_SPACE_DEVICE == 2 &&
               CONN_SPACE_MANAGED == 3);
-static_assert(CONN_FLOAT64 == 0 && CONN_FLOAT32 == 1);
+static_assert(CONN_FLOAT64 == 0 && CONN_FLOAT32 == 1 && CONN_INT32 == 2 && CONN_INT64 == 3);
+static_assert(CONN_LOG_NONE == 0 && CONN_LOG_ERROR == 1 && CONN_LOG_INFO == 2 &&
+              CONN_LOG_DEBUG == 3);
 static_assert(CONN_GATHER == 1 && CONN_SCATTER == 2 && CONN_GATHER_SCATTER == 3);
 static_assert(CONN_METHOD_AUTOMATIC == 0 && CONN_METHOD_BRUTE == 1 && CONN_METHOD_CELLS == 2);
 static_assert(CONN_METHOD_GROUPS == 3 && CONN_METHOD_DEVICE == 4);
@@ -171,6 +185,6 @@ static_assert(CONN_STRUCT_ARRAY == 1 && CONN_STRUCT_CONTEXT_OPTIONS == 2 &&
               CONN_STRUCT_MAP_OPTIONS == 3 && CONN_STRUCT_MAP_INFO == 4);
 static_assert(CONN_STRUCT_ROWS_VIEW == 5 && CONN_STRUCT_PAIRS_VIEW == 6 &&
               CONN_STRUCT_REPORT_ENTRY == 7 && CONN_STRUCT_INTERSECTION_VIEW == 8 &&
-              CONN_STRUCT_BOUNDARY_NODES == 9);
+              CONN_STRUCT_BOUNDARY_NODES == 9 && CONN_STRUCT_ESTIMATE == 10);
 
 }  // namespace

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <string>
+#include <vector>
+
 #include <connectivity/base/types.hpp>
 
 #include "guard.hpp"
@@ -9,16 +12,38 @@ using namespace connectivity::capi;
 
 namespace {
 
-std::string describe_build() {
-    std::string text =
-        "{\"version\": \"" CONN_VERSION_STRING "\", \"kokkos\": \"" + runtime_description() +
-        "\", \"compiler\": \"" __VERSION__ "\", \"max_nodes\": " + std::to_string(max_slots);
 #if defined(NDEBUG)
-    text += ", \"asserts\": false";
+constexpr bool has_asserts = false;
 #else
-    text += ", \"asserts\": true";
+constexpr bool has_asserts = true;
 #endif
-    return text + "}";
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        if (static_cast<unsigned char>(c) >= 0x20) out += c;
+    }
+    return out + "\"";
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string out;
+    for (const std::string& name : names) out += (out.empty() ? "" : ", ") + quoted(name);
+    return "[" + out + "]";
+}
+
+std::string describe_build() {
+    const auto flag = [](bool value) { return value ? "true" : "false"; };
+    const bool has_device = runtime_has_device();
+    return "{\"version\": " + quoted(CONN_VERSION_STRING) +
+           ", \"kokkos\": " + quoted(runtime_description()) +
+           ", \"kokkos_linkage\": " + quoted(CONNECTIVITY_KOKKOS_LINKAGE) +
+           ", \"backends\": " + listed(runtime_backends()) + ", \"device\": " + flag(has_device) +
+           ", \"spaces\": " + listed({"host", "host_pinned"}) +
+           ", \"compiler\": " + quoted(__VERSION__) +
+           ", \"max_nodes\": " + std::to_string(max_slots) + ", \"asserts\": " + flag(has_asserts) +
+           "}";
 }
 
 }  // namespace
@@ -75,6 +100,7 @@ int64_t conn_abi_sizeof(int32_t which) {
         case CONN_STRUCT_REPORT_ENTRY: return sizeof(conn_report_entry);
         case CONN_STRUCT_INTERSECTION_VIEW: return sizeof(conn_intersection_view);
         case CONN_STRUCT_BOUNDARY_NODES: return sizeof(conn_boundary_nodes);
+        case CONN_STRUCT_ESTIMATE: return sizeof(conn_estimate);
         default: return 0;
     }
 }

@@ -2,15 +2,22 @@
 #include <algorithm>
 #include <utility>
 
+#include <connectivity/map/estimate.hpp>
+
 #include "arguments.hpp"
 #include "guard.hpp"
-#include "objects.hpp"
+#include "map_work.hpp"
 #include "structs.hpp"
 
 using namespace connectivity;
 using namespace connectivity::capi;
 
 namespace {
+
+std::uint64_t next_number() {
+    static std::uint64_t last = 0;  // under the call mutex
+    return ++last;
+}
 
 const ConnectivityMap& map_of(const conn_map* handle) {
     return *Registry::instance().get<const conn_map>(handle, "map").map;
@@ -26,6 +33,12 @@ bool has_same_options(const conn_map& map) {
 }
 
 }  // namespace
+
+conn_map::conn_map(const conn_context& context, IndexBase index_base)
+    : number(next_number()),
+      base(index_base),
+      log(context.log),
+      context_budget(context.budget_bytes) {}
 
 namespace connectivity::capi {
 
@@ -61,9 +74,8 @@ conn_status conn_map_create(conn_context* context, const conn_map_options* optio
     return guarded_with_runtime(__func__, [&] {
         const auto& in = Registry::instance().get<conn_context>(context, "context");
         if (map == nullptr) throw Error(Status::null, "map is NULL");
-        auto made = std::make_unique<conn_map>();
+        auto made = std::make_unique<conn_map>(in, read_index_base(options, "options"));
         made->options = read_options(options);
-        made->context_budget = in.budget_bytes;
         *map = Registry::instance().add(std::move(made));
     });
 }
@@ -76,7 +88,7 @@ conn_status conn_map_rebuild(conn_map* map, conn_nodes* const* lists, int32_t n_
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_map>(map, "map");
         const std::vector<NodeList> nodes = read_lists(lists, n_lists);
-        ours.map->rebuild(nodes, options_of(ours));
+        work_on(ours, "rebuild", [&] { ours.map->rebuild(nodes, options_of(ours)); });
     });
 }
 
@@ -113,12 +125,40 @@ conn_status conn_map_get_info(const conn_map* map, conn_map_info* info) {
         out.n_rows = ours.layout().n_rows();
         out.n_entries = is_built && ours.options().rows ? ours.rows().size() : 0;
         out.n_pairs = is_built && ours.options().wants_pairs() ? ours.pairs().size() : 0;
-        out.bytes = ours.report().total_bytes() + handle.row_pairs.bytes();
+        out.bytes = held_bytes(handle);
         out.dim = ours.dim();
         out.n_lists = ours.layout().n_lists();
         out.n_report_entries = static_cast<std::int32_t>(ours.report().entries().size());
         out.n_report_counters = static_cast<std::int32_t>(ours.report().counters().size());
         write_struct(info, out, out.struct_size);
+    });
+}
+
+conn_status conn_map_memory(const conn_map* map, int32_t space, int64_t* bytes,
+                            int64_t* high_water) {
+    return guarded_with_runtime(__func__, [&] {
+        const auto& ours = Registry::instance().get<const conn_map>(map, "map");
+        check_space(space);
+        const Offset now = note_memory(ours);
+        if (bytes != nullptr) *bytes = now;
+        if (high_water != nullptr) *high_water = ours.high_water;
+    });
+}
+
+conn_status conn_map_estimate(const conn_map* map, conn_nodes* const* lists, int32_t n_lists,
+                              conn_estimate* estimate) {
+    return guarded_with_runtime(__func__, [&] {
+        const auto& ours = Registry::instance().get<const conn_map>(map, "map");
+        conn_estimate out = read_struct(estimate, conn_estimate CONN_ESTIMATE_INIT, "estimate");
+        const MapEstimate found =
+            connectivity::estimate(read_lists(lists, n_lists), options_of(ours));
+        out.n_entries = found.n_entries;
+        out.n_pairs = found.n_pairs;
+        out.bytes = found.bytes;
+        out.peak_bytes = found.peak_bytes;
+        out.n_sampled = found.n_sampled;
+        out.relative_error = found.relative_error;
+        write_struct(estimate, out, out.struct_size);
     });
 }
 
@@ -138,8 +178,8 @@ conn_status conn_map_offsets(const conn_map* map, int64_t* list_offset, int64_t*
 conn_status conn_map_spatial_order(const conn_map* map, int32_t list, int32_t* nodes,
                                    int64_t capacity, int64_t* count) {
     return guarded_with_runtime(__func__, [&] {
-        const ConnectivityMap& ours = map_of(map);
+        const auto& ours = Registry::instance().get<const conn_map>(map, "map");
         if (count == nullptr) throw Error(Status::null, "count is NULL");
-        copy_out(ours.spatial_order(list), nodes, capacity, count);
+        copy_nodes_out(ours.map->spatial_order(list), ours.base, nodes, capacity, count);
     });
 }

@@ -118,6 +118,14 @@ Domain connectivity::capi::read_domain(const conn_map_options* given, const char
     return domain_of(read_struct(given, conn_map_options CONN_MAP_OPTIONS_INIT, name), name);
 }
 
+IndexBase connectivity::capi::read_index_base(const conn_map_options* given,
+                                              const std::string& name) {
+    if (given == nullptr) return {};
+    const conn_map_options ours =
+        read_struct(given, conn_map_options CONN_MAP_OPTIONS_INIT, name.c_str());
+    return {ours.index_base, name + "->index_base"};
+}
+
 MapOptions connectivity::capi::read_options(const conn_map_options* given) {
     conn_map_options o = CONN_MAP_OPTIONS_INIT;
     if (given != nullptr) o = read_struct(given, o, "options");
@@ -132,9 +140,12 @@ MapOptions connectivity::capi::read_options(const conn_map_options* given) {
     options.mode = read_mode(o.mode, "options->mode");
     options.method = read_method(o.method);
     options.domain = domain_of(o, "options");
-    if (o.reserved != 0 || o.reserved_2 != 0)
+    if (o.reserved != 0 || o.reserved_2 != 0 || o.reserved_3 != 0)
         throw Error(Status::unsupported, std::string("options->reserved") +
-                                             (o.reserved != 0 ? "" : "_2") + " is set, must be 0");
+                                             (o.reserved != 0     ? ""
+                                              : o.reserved_2 != 0 ? "_2"
+                                                                  : "_3") +
+                                             " is set, must be 0");
     if (o.budget_bytes < 0)
         throw Error(Status::argument,
                     "options->budget_bytes = " + std::to_string(o.budget_bytes) + ", must be >= 0");
@@ -158,6 +169,11 @@ conn_status conn_map_set_options(conn_map* map, const conn_map_options* options)
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_map>(map, "map");
         MapOptions next = read_options(options);
+        if (options != nullptr && read_index_base(options, "options") != ours.base)
+            throw Error(Status::argument,
+                        "options->index_base is not that of the map, which keeps it for good: it "
+                        "counts from " +
+                            std::to_string(ours.base.out(0)));
         next.exclude = ours.options.exclude;
         ours.options = std::move(next);
     });
@@ -169,7 +185,7 @@ conn_status conn_map_set_exclusion(conn_map* map, conn_pair_predicate predicate,
         if (predicate == nullptr)
             ours.options.exclude = nullptr;
         else
-            ours.options.exclude =
-                std::make_shared<const PairPredicate>(HostPredicate{predicate, user_data});
+            ours.options.exclude = std::make_shared<const PairPredicate>(
+                HostPredicate{predicate, user_data, ours.base});
     });
 }

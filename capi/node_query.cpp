@@ -12,8 +12,8 @@ using namespace connectivity::capi;
 
 namespace {
 
-const NeighbourQuery& query_of(const conn_query* handle) {
-    return Registry::instance().get<const conn_query>(handle, "query").query;
+const conn_query& handle_of(const conn_query* handle) {
+    return Registry::instance().get<const conn_query>(handle, "query");
 }
 
 /// An array [n] of the host.
@@ -33,13 +33,13 @@ QueryPoint read_point(int dim, const double* x, double h, const double* tensor) 
 
 /// `who` is a slot or a point; their number alone needs no list.
 template <class Who>
-void neighbours_out(const NeighbourQuery& query, const Who& who, SearchMode mode, int32_t* slots,
+void neighbours_out(const conn_query& handle, const Who& who, SearchMode mode, int32_t* slots,
                     int64_t capacity, int64_t* count) {
     required(count, "count");
     if (slots == nullptr)
-        *count = query.count(who, mode);
+        *count = handle.query.count(who, mode);
     else
-        copy_out(query.neighbours(who, mode), slots, capacity, count);
+        copy_nodes_out(handle.query.neighbours(who, mode), handle.base, slots, capacity, count);
 }
 
 std::vector<Slot> QueryCandidates::*read_which(std::int32_t which) {
@@ -94,14 +94,17 @@ conn_status conn_query_update(conn_query* query, conn_nodes* const* lists, int32
                               const conn_map_options* domain) {
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_query>(query, "query");
+        const IndexBase base = read_index_base(domain, "domain");
         ours.query.update(read_lists(lists, n_lists), read_domain(domain, "domain"));
+        ours.base = base;
     });
 }
 
 conn_status conn_query_neighbours(const conn_query* query, int32_t node_slot, int32_t mode,
                                   int32_t* slots, int64_t capacity, int64_t* count) {
     return guarded_with_runtime(__func__, [&] {
-        neighbours_out(query_of(query), Slot{node_slot}, read_mode(mode, "mode"), slots, capacity,
+        const conn_query& ours = handle_of(query);
+        neighbours_out(ours, ours.base.in(node_slot), read_mode(mode, "mode"), slots, capacity,
                        count);
     });
 }
@@ -110,30 +113,31 @@ conn_status conn_query_neighbours_at(const conn_query* query, const double* x, d
                                      const double* tensor, int32_t mode, int32_t* slots,
                                      int64_t capacity, int64_t* count) {
     return guarded_with_runtime(__func__, [&] {
-        const NeighbourQuery& ours = query_of(query);
-        neighbours_out(ours, read_point(ours.dim(), x, h, tensor), read_mode(mode, "mode"), slots,
-                       capacity, count);
+        const conn_query& ours = handle_of(query);
+        neighbours_out(ours, read_point(ours.query.dim(), x, h, tensor), read_mode(mode, "mode"),
+                       slots, capacity, count);
     });
 }
 
 conn_status conn_query_candidates(const conn_query* query, int32_t node_slot, int32_t mode,
                                   int32_t which, int32_t* slots, int64_t capacity, int64_t* count) {
     return guarded_with_runtime(__func__, [&] {
-        const NeighbourQuery& ours = query_of(query);
+        const conn_query& ours = handle_of(query);
         const auto step = read_which(which);
-        copy_out(ours.candidates(Slot{node_slot}, read_mode(mode, "mode")).*step, slots, capacity,
-                 count);
+        copy_nodes_out(
+            ours.query.candidates(ours.base.in(node_slot), read_mode(mode, "mode")).*step,
+            ours.base, slots, capacity, count);
     });
 }
 
 conn_status conn_query_near_box(const conn_query* query, const double* lo, const double* hi,
                                 int32_t mode, int32_t* slots, int64_t capacity, int64_t* count) {
     return guarded_with_runtime(__func__, [&] {
-        const NeighbourQuery& ours = query_of(query);
-        const int dim = ours.dim();
-        copy_out(ours.near_box(read_values(lo, dim, "lo"), read_values(hi, dim, "hi"),
-                               read_mode(mode, "mode")),
-                 slots, capacity, count);
+        const conn_query& ours = handle_of(query);
+        const int dim = ours.query.dim();
+        copy_nodes_out(ours.query.near_box(read_values(lo, dim, "lo"), read_values(hi, dim, "hi"),
+                                           read_mode(mode, "mode")),
+                       ours.base, slots, capacity, count);
     });
 }
 
@@ -141,20 +145,20 @@ conn_status conn_query_near_plane(const conn_query* query, const double* point,
                                   const double* normal, double distance, int32_t mode,
                                   int32_t* slots, int64_t capacity, int64_t* count) {
     return guarded_with_runtime(__func__, [&] {
-        const NeighbourQuery& ours = query_of(query);
-        const int dim = ours.dim();
-        copy_out(
-            ours.near_plane(read_values(point, dim, "point"), read_values(normal, dim, "normal"),
-                            distance, read_mode(mode, "mode")),
-            slots, capacity, count);
+        const conn_query& ours = handle_of(query);
+        const int dim = ours.query.dim();
+        copy_nodes_out(ours.query.near_plane(read_values(point, dim, "point"),
+                                             read_values(normal, dim, "normal"), distance,
+                                             read_mode(mode, "mode")),
+                       ours.base, slots, capacity, count);
     });
 }
 
 conn_status conn_query_periodic_shift(const conn_query* query, int32_t i, int32_t j,
                                       double shift[3]) {
     return guarded_with_runtime(__func__, [&] {
-        const NeighbourQuery& ours = query_of(query);
+        const conn_query& ours = handle_of(query);
         required(shift, "shift");
-        std::ranges::copy(ours.periodic_shift(i, j), shift);
+        std::ranges::copy(ours.query.periodic_shift(ours.base.in(i), ours.base.in(j)), shift);
     });
 }

@@ -51,29 +51,35 @@ NodeList without_ids(const NodeList& list) {
                                                 list.positions(), list.h(), list.kernel_extent());
 }
 
-/// One for each, or none at all. Throws Error{argument | null}.
-void check_names(const void* values, std::int64_t n, Offset n_nodes, const std::string& name,
-                 const std::string& count) {
-    check_count(values, n, max_slots, name, count);
-    if (n != 0 && n != n_nodes)
-        throw Error(Status::argument, count + " = " + std::to_string(n) + ", must be 0 or " +
-                                          std::to_string(n_nodes) + " as in the list");
+/// An array for some nodes of the list, all of which it must have. Throws Error{argument | ...}.
+WholeNumbers read_names(const conn_array& array, Offset n_nodes, const std::string& name) {
+    const WholeNumbers numbers(array, name);
+    if (numbers.size() != n_nodes)
+        throw Error(Status::argument, name + " has " + std::to_string(numbers.size()) +
+                                          " values, must have " + std::to_string(n_nodes) +
+                                          " as in the list");
+    return numbers;
 }
 
-/// Throws Error{argument} for the first ghost with an owner that is no internal node.
-void check_owners(const NodeList& list, const std::int32_t* owner, std::int64_t n_ghosts) {
-    for (std::int64_t g = 0; g < n_ghosts; ++g)
+View<std::int64_t> read_global_ids(const conn_array& array, const NodeList& list) {
+    const WholeNumbers ids = read_names(array, list.n(), "global_ids");
+    const auto copy = allocate<std::int64_t>("nodes/global_ids", ids.size());
+    for (Offset k = 0; k < ids.size(); ++k) copy(k) = ids[k];
+    return copy;
+}
+
+/// Throws Error{argument} for the first ghost with an owner that is no internal node, too.
+View<Slot> read_owners(const conn_array& array, const NodeList& list) {
+    const WholeNumbers owner = read_names(array, list.n_ghosts(), "owner");
+    const auto copy = allocate<Slot>("nodes/owners", owner.size());
+    for (Offset g = 0; g < owner.size(); ++g) {
         if (owner[g] < -1 || owner[g] >= list.n_internal())
             throw Error(Status::argument, "owner[" + std::to_string(g) +
                                               "] = " + std::to_string(owner[g]) +
                                               ", must be -1 or an internal node, in [0, " +
                                               std::to_string(list.n_internal()) + ")");
-}
-
-template <class T>
-View<T> copy_of(const char* label, const T* values, std::int64_t n) {
-    const View<T> copy = allocate<T>(label, n);
-    std::copy_n(values, n, copy.data());
+        copy(g) = static_cast<Slot>(owner[g]);
+    }
     return copy;
 }
 
@@ -119,19 +125,16 @@ conn_status conn_nodes_set_tensor(conn_nodes* nodes, int64_t n_internal,
     });
 }
 
-conn_status conn_nodes_set_ids(conn_nodes* nodes, const int64_t* global_ids, int64_t n,
-                               const int32_t* owner, int64_t n_ghosts) {
+conn_status conn_nodes_set_ids(conn_nodes* nodes, const conn_array* global_ids,
+                               const conn_array* owner) {
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_nodes>(nodes, "nodes");
         if (!ours.list)
             throw Error(Status::argument,
                         "nodes (\"" + ours.name + "\") was never set; give positions first");
         NodeList list = without_ids(*ours.list);
-        check_names(global_ids, n, list.n(), "global_ids", "n");
-        check_names(owner, n_ghosts, list.n_ghosts(), "owner", "n_ghosts");
-        check_owners(list, owner, n_ghosts);
-        if (n > 0) list.set_global_ids(copy_of("nodes/global_ids", global_ids, n));
-        if (n_ghosts > 0) list.set_owners(copy_of("nodes/owners", owner, n_ghosts));
+        if (global_ids != nullptr) list.set_global_ids(read_global_ids(*global_ids, list));
+        if (owner != nullptr) list.set_owners(read_owners(*owner, list));
         ours.list = std::move(list);
     });
 }

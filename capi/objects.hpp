@@ -3,6 +3,8 @@
 /// What the opaque handles of connectivity.h are.
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,13 +14,17 @@
 #include <connectivity/map/neighbour_query.hpp>
 #include <connectivity/map/row_pairs.hpp>
 
-#include "connectivity.h"
+#include "connectivity_boundary.h"
+#include "index_base.hpp"
+#include "log.hpp"
 #include "pair_values.hpp"
 #include "registry.hpp"
 
 struct conn_context final : connectivity::capi::Handle {
     std::int64_t budget_bytes = 0;
+    std::shared_ptr<connectivity::capi::Log> log = std::make_shared<connectivity::capi::Log>();
 
+    ~conn_context() override { *log = {}; }
     const char* kind() const noexcept override { return "a context"; }
     void drop_views() noexcept override {}
 };
@@ -39,16 +45,23 @@ struct conn_nodes final : connectivity::capi::Handle {
 };
 
 struct conn_map final : connectivity::capi::Handle {
-    std::int64_t context_budget = 0;
+    const std::uint64_t number;  ///< unique in the process
+    const connectivity::capi::IndexBase base;
+    const std::shared_ptr<const connectivity::capi::Log> log;
+    const std::int64_t context_budget;
     connectivity::MapOptions options;                                 ///< of the next rebuild
     std::optional<connectivity::ConnectivityMap> map{std::in_place};  ///< none after Kokkos stopped
     connectivity::RowPairs row_pairs;  ///< of the last sum along rows
+    mutable connectivity::capi::BasedLists based;
+    mutable connectivity::Offset high_water = 0;  ///< bytes
 
+    conn_map(const conn_context& context, connectivity::capi::IndexBase index_base);
     const char* kind() const noexcept override { return "a map"; }
     void drop_views() noexcept override {
         map.reset();
         options.active = {};
         row_pairs = {};
+        based = {};
     }
 };
 
@@ -70,6 +83,7 @@ struct conn_boundaries final : connectivity::capi::Handle {
 
 struct conn_query final : connectivity::capi::Handle {
     connectivity::NeighbourQuery query;
+    connectivity::capi::IndexBase base;  ///< of the last update
 
     const char* kind() const noexcept override { return "a query"; }
     void drop_views() noexcept override { query = {}; }
@@ -84,6 +98,9 @@ SearchMode read_mode(std::int32_t mode, const std::string& name);
 /// unsupported}.
 Domain read_domain(const conn_map_options* given, const char* name);
 
+/// The index_base alone; NULL means 0. Throws as read_domain.
+IndexBase read_index_base(const conn_map_options* given, const std::string& name);
+
 /// Checked and copied; NULL means the defaults. Throws Error{argument | null | struct_size |
 /// unsupported | memory}.
 MapOptions read_options(const conn_map_options* given);
@@ -95,28 +112,59 @@ MapOptions options_of(const conn_map& map);
 /// handle}.
 std::vector<NodeList> read_lists(conn_nodes* const* lists, std::int32_t n_lists);
 
+/// Throws Error{argument}, Error{unsupported} for a space that no list of this build is in.
+void check_space(std::int32_t space);
+
+/// i [n_pairs]: the first node of every pair.
+void write_first_nodes(const NodePairList::View<>& pairs, IndexBase base, Slot* i);
+
 /// Owners of acquired views: they hold the storage and the offsets of the lists.
-struct RowsPin final : Handle {
+struct ViewPin : Handle {
+    std::uint64_t map_number = 0;
+    Generation generation = 0;
+
+    using ArrayFunction = std::function<void(const void* data, std::size_t bytes)>;
+    /// f for every array it holds.
+    virtual void for_each_array(const ArrayFunction& f) const = 0;
+
+protected:
+    template <class Array>
+    static void tell(const ArrayFunction& f, const Array& array) {
+        f(array.data(), array.size() * sizeof *array.data());
+    }
+};
+
+struct RowsPin final : ViewPin {
     RowsView<> rows;
     std::vector<Offset> list_offset, row_offset;
 
     const char* kind() const noexcept override { return "the owner of a rows view"; }
     void drop_views() noexcept override { rows = {}; }
+    void for_each_array(const ArrayFunction& f) const override {
+        tell(f, rows.offsets), tell(f, rows.slots);
+    }
 };
 
-struct PairsPin final : Handle {
+struct PairsPin final : ViewPin {
     NodePairList::View<> pairs;
     std::vector<Offset> list_offset;
 
     const char* kind() const noexcept override { return "the owner of a pairs view"; }
     void drop_views() noexcept override { pairs = {}; }
+    void for_each_array(const ArrayFunction& f) const override {
+        tell(f, pairs.offsets), tell(f, pairs.i), tell(f, pairs.j), tell(f, pairs.coupling);
+        tell(f, pairs.slots), tell(f, pairs.ranks);
+    }
 };
 
-struct IntersectionPin final : Handle {
+struct IntersectionPin final : ViewPin {
     IntersectionView<> nodes;
 
     const char* kind() const noexcept override { return "the owner of an intersection view"; }
     void drop_views() noexcept override { nodes = {}; }
+    void for_each_array(const ArrayFunction& f) const override {
+        tell(f, nodes.offsets), tell(f, nodes.slots);
+    }
 };
 
 }  // namespace connectivity::capi

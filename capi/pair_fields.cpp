@@ -4,7 +4,7 @@
 #include "arguments.hpp"
 #include "callbacks.hpp"
 #include "guard.hpp"
-#include "objects.hpp"
+#include "map_work.hpp"
 
 using namespace connectivity;
 using namespace connectivity::capi;
@@ -73,19 +73,33 @@ conn_status conn_pair_field_data(conn_pair_field* field, const conn_map* map, do
 conn_status conn_map_patch(conn_map* map, const int32_t* keep, const int32_t* old2new,
                            int64_t n_slots, conn_pair_field* const* fields, int32_t n_fields) {
     return guarded_with_runtime(__func__, [&] {
-        ConnectivityMap& ours = *Registry::instance().get<conn_map>(map, "map").map;
+        auto& handle = Registry::instance().get<conn_map>(map, "map");
+        ConnectivityMap& ours = *handle.map;
         check_count(keep, n_slots, max_slots, "keep", "n_slots");
         check_count(old2new, n_slots, max_slots, "old2new", "n_slots");
         const auto n = static_cast<std::size_t>(n_slots);
-        ours.patch({keep, n}, {old2new, n}, read_fields(ours, fields, n_fields));
+        std::vector<Slot> based;
+        const bool converts = !handle.base.is_zero() && n_slots == ours.layout().n_slots();
+        if (converts) {
+            based.assign(old2new, old2new + n);
+            for (Slot& node : based) node = handle.base.in(node);
+        }
+        const Slot* const new_nodes = converts ? based.data() : old2new;
+        work_on(handle, "patch", [&] {
+            ours.patch({keep, n}, {new_nodes, n}, read_fields(ours, fields, n_fields));
+        });
     });
 }
 
 conn_status conn_map_remove_pairs(conn_map* map, conn_pair_predicate predicate, void* user_data,
                                   conn_pair_field* const* fields, int32_t n_fields) {
     return guarded_with_runtime(__func__, [&] {
-        ConnectivityMap& ours = *Registry::instance().get<conn_map>(map, "map").map;
+        auto& handle = Registry::instance().get<conn_map>(map, "map");
+        ConnectivityMap& ours = *handle.map;
         required(predicate, "predicate");
-        ours.remove_pairs(HostPredicate{predicate, user_data}, read_fields(ours, fields, n_fields));
+        work_on(handle, "remove_pairs", [&] {
+            ours.remove_pairs(HostPredicate{predicate, user_data, handle.base},
+                              read_fields(ours, fields, n_fields));
+        });
     });
 }

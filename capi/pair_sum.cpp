@@ -6,7 +6,7 @@
 
 #include "arguments.hpp"
 #include "guard.hpp"
-#include "objects.hpp"
+#include "map_work.hpp"
 
 using namespace connectivity;
 using namespace connectivity::capi;
@@ -121,7 +121,7 @@ conn_status conn_pair_field_sum(const conn_pair_field* field, conn_map* map, int
         check_capacity(capacity, n_values);
         if (n_values > 0) required(out, "out");
         RowPairs::View<> rows;
-        if (how == CONN_SUM_DETERMINISTIC) rows = row_pairs_of(ours);
+        if (how == CONN_SUM_DETERMINISTIC) rows = row_pairs_of(ours), note_memory(ours);
         detail::fill_pairs(out, n_values, 0.0);
         if (how == CONN_SUM_DETERMINISTIC)
             add_rows(rows, pairs, out);

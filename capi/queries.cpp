@@ -9,16 +9,17 @@ using namespace connectivity;
 using namespace connectivity::capi;
 
 namespace {
-const ConnectivityMap& map_of(const conn_map* handle) {
-    return *Registry::instance().get<const conn_map>(handle, "map").map;
+const conn_map& handle_of(const conn_map* handle) {
+    return Registry::instance().get<const conn_map>(handle, "map");
 }
 }  // namespace
 
 conn_status conn_map_key_order(const conn_map* map, int32_t* slots, int32_t* ranks, uint64_t* keys,
                                int64_t capacity, int64_t* count) {
     return guarded_with_runtime(__func__, [&] {
-        const KeyOrderView<> order = map_of(map).key_order();
-        copy_out(order.slots, slots, capacity, count);
+        const conn_map& handle = handle_of(map);
+        const KeyOrderView<> order = handle.map->key_order();
+        copy_nodes_out(order.slots, handle.base, slots, capacity, count);
         copy_out(order.ranks, ranks, capacity, count);
         copy_out(order.keys, keys, capacity, count);
     });
@@ -27,13 +28,14 @@ conn_status conn_map_key_order(const conn_map* map, int32_t* slots, int32_t* ran
 conn_status conn_map_traversal(const conn_map* map, int32_t list, int32_t* nodes, int64_t capacity,
                                int64_t* count) {
     return guarded_with_runtime(__func__, [&] {
-        const ConnectivityMap& ours = map_of(map);
+        const conn_map& handle = handle_of(map);
         required(count, "count");
-        const NodeTraversal traversal = ours.traversal(list);
+        const NodeTraversal traversal = handle.map->traversal(list);
         *count = traversal.size();
         if (nodes == nullptr) return;
         check_capacity(capacity, *count);
         std::copy(traversal.begin(), traversal.end(), nodes);
+        handle.base.copy_out(nodes, *count, nodes);
     });
 }
 
@@ -41,36 +43,44 @@ conn_status conn_map_common_neighbours(const conn_map* map, int32_t a, int32_t b
                                        conn_nodes* const* lists, int32_t n_lists, int32_t* slots,
                                        int64_t capacity, int64_t* count) {
     return guarded_with_runtime(__func__, [&] {
-        const ConnectivityMap& ours = map_of(map);
+        const conn_map& handle = handle_of(map);
+        const Slot i = handle.base.in(a), j = handle.base.in(b);
         const bool all = lists == nullptr && n_lists == 0;
         const std::vector<Slot> common =
-            all ? ours.common_neighbours(a, b)
-                : ours.common_neighbours(a, b, read_lists(lists, n_lists));
-        copy_out(common, slots, capacity, count);
+            all ? handle.map->common_neighbours(i, j)
+                : handle.map->common_neighbours(i, j, read_lists(lists, n_lists));
+        copy_nodes_out(common, handle.base, slots, capacity, count);
     });
 }
 
 conn_status conn_map_all_neighbours(const conn_map* map, int32_t a, int32_t b, int32_t* slots,
                                     int64_t capacity, int64_t* count) {
-    return guarded_with_runtime(
-        __func__, [&] { copy_out(map_of(map).all_neighbours(a, b), slots, capacity, count); });
+    return guarded_with_runtime(__func__, [&] {
+        const conn_map& handle = handle_of(map);
+        copy_nodes_out(handle.map->all_neighbours(handle.base.in(a), handle.base.in(b)),
+                       handle.base, slots, capacity, count);
+    });
 }
 
 conn_status conn_map_find_pairs(const conn_map* map, int64_t n, const int32_t* i, const int32_t* j,
                                 int64_t* pair) {
     return guarded_with_runtime(__func__, [&] {
-        const NodePairList::View<> pairs = map_of(map).pairs().view();
+        const conn_map& handle = handle_of(map);
+        const NodePairList::View<> pairs = handle.map->pairs().view();
+        const auto number = [=, base = handle.base](Offset k) {
+            return pairs.find(base.in(i[k]), base.in(j[k]));
+        };
         constexpr std::int64_t limit = std::int64_t{1} << 48;
         check_count(i, n, limit, "i", "n");
         check_count(j, n, limit, "j", "n");
         check_count(pair, n, limit, "pair", "n");
         if (n <= few_items) {
-            for (std::int64_t k = 0; k < n; ++k) pair[k] = pairs.find(i[k], j[k]);
+            for (std::int64_t k = 0; k < n; ++k) pair[k] = number(k);
             return;
         }
         Kokkos::parallel_for("capi/find_pairs",
                              Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, n),
-                             [=](const Offset k) { pair[k] = pairs.find(i[k], j[k]); });
+                             [=](const Offset k) { pair[k] = number(k); });
         HostExec().fence();
     });
 }

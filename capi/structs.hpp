@@ -10,7 +10,7 @@
 
 #include <connectivity/base/error.hpp>
 
-#include "connectivity.h"
+#include "connectivity_boundary.h"
 
 namespace connectivity::capi {
 
@@ -25,6 +25,9 @@ constexpr std::size_t first_size<conn_context_options> = offsetof(conn_context_o
 template <>
 constexpr std::size_t first_size<conn_map_options> = offsetof(conn_map_options, budget_bytes) +
                                                      sizeof(std::int64_t);
+template <>
+constexpr std::size_t first_size<conn_estimate> = offsetof(conn_estimate, relative_error) +
+                                                  sizeof(double);
 template <>
 constexpr std::size_t first_size<conn_map_info> = offsetof(conn_map_info, n_report_counters) +
                                                   sizeof(std::int32_t);

@@ -7,7 +7,7 @@
 #include <connectivity/base/parallel.hpp>
 
 #include "guard.hpp"
-#include "objects.hpp"
+#include "map_work.hpp"
 
 using namespace connectivity;
 using namespace connectivity::capi;
@@ -18,8 +18,8 @@ namespace {
 /// another language may cost as much as a row. Blocks stay in the first-level cache.
 class BlockCallback {
 public:
-    BlockCallback(conn_rows_callback callback, void* user_data)
-        : callback_(callback), user_data_(user_data), block_(n_workers()) {}
+    BlockCallback(conn_rows_callback callback, void* user_data, IndexBase base)
+        : callback_(callback), user_data_(user_data), base_(base), block_(n_workers()) {}
 
     void operator()(int worker, Slot slot, std::span<const Slot> neighbours) {
         Block& block = block_[worker];
@@ -28,8 +28,9 @@ public:
             hand_over(worker);
         if (block.neighbours.size() < block.size() + neighbours.size())
             block.neighbours.resize(std::max(most_neighbours, neighbours.size()));
-        std::ranges::copy(neighbours, block.neighbours.begin() + block.offsets[block.n_rows]);
-        block.slots[block.n_rows] = slot;
+        std::ranges::transform(neighbours, block.neighbours.begin() + block.offsets[block.n_rows],
+                               [base = base_](Slot j) { return base.out(j); });
+        block.slots[block.n_rows] = base_.out(slot);
         block.offsets[block.n_rows + 1] =
             block.offsets[block.n_rows] + static_cast<std::int64_t>(neighbours.size());
         ++block.n_rows;
@@ -73,6 +74,7 @@ private:
 
     conn_rows_callback callback_;
     void* user_data_;
+    IndexBase base_;
     std::vector<Block> block_;  // [n_workers]
     std::atomic<bool> stopped_{false};
 };
@@ -89,11 +91,13 @@ conn_status conn_map_traverse(conn_map* map, conn_nodes* const* lists, int32_t n
                         "what = " + std::to_string(what) + ", must be CONN_ROWS or CONN_PAIRS");
         if (callback == nullptr) throw Error(Status::null, "callback is NULL");
         const MapOptions options = options_of(ours);
-        BlockCallback blocks(callback, user_data);
-        if (what == CONN_ROWS)
-            ours.map->for_each_row(nodes, options, blocks);
-        else
-            ours.map->for_each_half_row(nodes, options, blocks);
-        blocks.finish();
+        BlockCallback blocks(callback, user_data, ours.base);
+        work_on(ours, "traversal", [&] {
+            if (what == CONN_ROWS)
+                ours.map->for_each_row(nodes, options, blocks);
+            else
+                ours.map->for_each_half_row(nodes, options, blocks);
+            blocks.finish();
+        });
     });
 }

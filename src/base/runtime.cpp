@@ -156,28 +156,42 @@ void at_runtime_stop(std::function<void()> release) {
     record().releases.push_back(std::move(release));
 }
 
+bool runtime_has_device() {
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
+    return true;
+#else
+    return false;
+#endif
+}
+
+std::vector<std::string> runtime_backends() {
+    std::vector<std::string> names;
+#if defined(KOKKOS_ENABLE_CUDA)
+    names.push_back("Cuda");
+#endif
+#if defined(KOKKOS_ENABLE_HIP)
+    names.push_back("HIP");
+#endif
+#if defined(KOKKOS_ENABLE_SYCL)
+    names.push_back("SYCL");
+#endif
+#if defined(KOKKOS_ENABLE_OPENMP)
+    names.push_back("OpenMP");
+#endif
+#if defined(KOKKOS_ENABLE_THREADS)
+    names.push_back("Threads");
+#endif
+#if defined(KOKKOS_ENABLE_SERIAL)
+    names.push_back("Serial");
+#endif
+    return names;
+}
+
 std::string runtime_description() {
     std::string text = "Kokkos " + std::to_string(KOKKOS_VERSION / 10000) + "." +
                        std::to_string(KOKKOS_VERSION / 100 % 100) + "." +
                        std::to_string(KOKKOS_VERSION % 100);
-#if defined(KOKKOS_ENABLE_CUDA)
-    text += " Cuda";
-#endif
-#if defined(KOKKOS_ENABLE_HIP)
-    text += " HIP";
-#endif
-#if defined(KOKKOS_ENABLE_SYCL)
-    text += " SYCL";
-#endif
-#if defined(KOKKOS_ENABLE_OPENMP)
-    text += " OpenMP";
-#endif
-#if defined(KOKKOS_ENABLE_THREADS)
-    text += " Threads";
-#endif
-#if defined(KOKKOS_ENABLE_SERIAL)
-    text += " Serial";
-#endif
+    for (const std::string& name : runtime_backends()) text += " " + name;
     return text;
 }
 

@@ -76,9 +76,16 @@ Argument interleaved_floats(const std::vector<double>& v, int components) {
     return a;
 }
 
+Argument planar_floats(const std::vector<double>& v, int components) {
+    Argument a = separate_floats(v, components);
+    a.arrays = {conn_array_planar_float(a.floats.data(), n, components)};
+    return a;
+}
+
 using Layout = Argument (*)(const std::vector<double>&, int);
-constexpr Layout all_layouts[] = {interleaved, planar,   padded,          backwards,
-                                  mirrored,    separate, separate_floats, interleaved_floats};
+constexpr Layout all_layouts[] = {interleaved,     planar,        padded,
+                                  backwards,       mirrored,      separate,
+                                  separate_floats, planar_floats, interleaved_floats};
 
 /// Values that float holds exactly.
 void round_to_float(std::vector<double>& values) {
@@ -152,6 +159,37 @@ TEST_P(CapiArrays, several_lists_with_ghosts_and_unequal_extents_equal_brute_for
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, CapiArrays, ::testing::Values(1, 2, 3));
+
+TEST(CapiArray, whole_numbers_are_no_positions_and_no_supports) {
+    const Context context;
+    const Nodes nodes(context, 3);
+    const std::int32_t narrow[6] = {};
+    const std::int64_t wide[6] = {};
+    const double real[6] = {};
+    const conn_array x = conn_array_matrix(real, 2, 3), h = conn_array_vector(real, 2),
+                     whole_x = conn_array_matrix_of(CONN_INT32, narrow, 2, 3),
+                     whole_h = conn_array_vector_int64(wide, 2);
+    EXPECT_TRUE(fails(conn_nodes_set_h(nodes.handle, 2, &whole_x, 1, &h), CONN_E_ARGUMENT,
+                      {"positions.dtype = 2", "CONN_FLOAT64 or CONN_FLOAT32"}));
+    EXPECT_TRUE(fails(conn_nodes_set_h(nodes.handle, 2, &x, 1, &whole_h), CONN_E_ARGUMENT,
+                      {"h.dtype = 3"}));
+    EXPECT_TRUE(ok(conn_nodes_set_h(nodes.handle, 2, &x, 1, &h)));
+}
+
+TEST(CapiArray, device_memory_is_refused_and_pinned_memory_is_read) {
+    const Context context;
+    const Nodes nodes(context, 3);
+    const double real[6] = {};
+    conn_array x = conn_array_matrix(real, 2, 3);
+    const conn_array h = conn_array_vector(real, 2);
+    for (const int space : {CONN_SPACE_DEVICE, CONN_SPACE_MANAGED}) {
+        x.space = space;
+        EXPECT_TRUE(fails(conn_nodes_set_h(nodes.handle, 2, &x, 1, &h), CONN_E_UNSUPPORTED,
+                          {"positions.space", "host"}));
+    }
+    x.space = CONN_SPACE_HOST_PINNED;
+    EXPECT_TRUE(ok(conn_nodes_set_h(nodes.handle, 2, &x, 1, &h)));
+}
 
 TEST(CapiArray, nothing_of_the_host_is_kept) {
     const Context context;

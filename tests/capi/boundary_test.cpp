@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include <connectivity_boundary.h>
+
 #include "capi_support.hpp"
 
 namespace connectivity::test {
@@ -177,7 +179,7 @@ TEST_F(CapiBoundary, ghosts_inherit_global_ids) {
     for (std::size_t a = 0; a < 80; ++a) ids[a] = 7000 - static_cast<std::int64_t>(a);
     EXPECT_TRUE(ok(update(CONN_GHOSTS_KEEP, map.handle)));
     EXPECT_EQ(view().global_id, nullptr);
-    ASSERT_TRUE(ok(conn_nodes_set_ids(nodes.handle, ids.data(), 80, nullptr, 0)));
+    ASSERT_TRUE(ok(set_ids(nodes.handle, ids)));
     ASSERT_TRUE(ok(update(CONN_GHOSTS_KEEP, map.handle)));
     const conn_boundary_nodes all = view();
     ASSERT_NE(all.global_id, nullptr);

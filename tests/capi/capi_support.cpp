@@ -202,6 +202,14 @@ conn_status Built::rebuild(const conn_map_options& options) const {
     return rebuild();
 }
 
+conn_status set_ids(conn_nodes* nodes, const std::vector<std::int64_t>& global_ids,
+                    const std::vector<std::int32_t>& owner) {
+    const conn_array ids = conn_array_vector_int64(global_ids.data(), std::ssize(global_ids)),
+                     owners = conn_array_vector_int32(owner.data(), std::ssize(owner));
+    return conn_nodes_set_ids(nodes, global_ids.empty() ? nullptr : &ids,
+                              owner.empty() ? nullptr : &owners);
+}
+
 Lists lists_of(const Context& context, int dim, const std::vector<NodeSet>& sets,
                const conn_map_options& options) {
     const Built built(context, dim, sets, options);

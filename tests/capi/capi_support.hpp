@@ -115,6 +115,10 @@ struct Built {
     conn_status rebuild(const conn_map_options& options) const;
 };
 
+/// Names and owners one after the other; none of those that are empty.
+conn_status set_ids(conn_nodes* nodes, const std::vector<std::int64_t>& global_ids,
+                    const std::vector<std::int32_t>& owner = {});
+
 /// Rebuilds a map over the sets and reads it.
 Lists lists_of(const Context& context, int dim, const std::vector<NodeSet>& sets,
                const conn_map_options& options = CONN_MAP_OPTIONS_INIT);

@@ -194,7 +194,7 @@ TEST(CapiKeyOrder, does_not_depend_on_storage_or_on_which_nodes_are_ghosts) {
     conn_map_options options = CONN_MAP_OPTIONS_INIT;
     options.order = CONN_ORDER_KEY;
     const Built first(context, 3, {set}, options);
-    ASSERT_TRUE(ok(conn_nodes_set_ids(first.lists[0], names.data(), 90, nullptr, 0)));
+    ASSERT_TRUE(ok(set_ids(first.lists[0], names)));
     ASSERT_TRUE(ok(first.rebuild()));
     const auto expected = named_pairs(first.map.handle, names);
     EXPECT_FALSE(expected.empty());
@@ -208,7 +208,7 @@ TEST(CapiKeyOrder, does_not_depend_on_storage_or_on_which_nodes_are_ghosts) {
     turned.n_internal = 50;
     const Built other(context, 3, {turned}, options);
     const std::vector<std::int32_t> own(40, -1);
-    ASSERT_TRUE(ok(conn_nodes_set_ids(other.lists[0], names.data(), 90, own.data(), 40)));
+    ASSERT_TRUE(ok(set_ids(other.lists[0], names, own)));
     ASSERT_TRUE(ok(other.rebuild()));
     EXPECT_EQ(named_pairs(other.map.handle, names), expected);
 }
@@ -234,8 +234,7 @@ TEST(CapiKeyOrder, an_image_has_the_key_of_its_owner_until_nodes_are_set_anew) {
     };
     const auto as_its_own = keys();
     EXPECT_NE(as_its_own[4], as_its_own[1]);
-    const std::int32_t owner[] = {1};
-    ASSERT_TRUE(ok(conn_nodes_set_ids(built.lists[0], nullptr, 0, owner, 1)));
+    ASSERT_TRUE(ok(set_ids(built.lists[0], {}, {1})));
     ASSERT_TRUE(ok(built.rebuild()));
     EXPECT_EQ(keys()[4], keys()[1]);
     ASSERT_TRUE(ok(built.nodes[0]->set(1, set)));
@@ -248,21 +247,52 @@ TEST(CapiKeyOrder, names_that_do_not_fit_the_list_are_refused) {
     NodeSet set = random_nodes(2, 10, 1);
     set.n_internal = 8;
     const Nodes nodes(context, 2, set), unset(context, 2);
-    const std::int64_t ids[10] = {};
-    const std::int32_t owner[] = {7, 8}, wrong[] = {-2, 0};
-    const auto set_ids = [&](const std::int64_t* names, std::int64_t n_names,
-                             const std::int32_t* of, std::int64_t n_of) {
-        return conn_nodes_set_ids(nodes.handle, names, n_names, of, n_of);
+    const std::vector<std::int64_t> ids(10), few(9);
+    conn_nodes* const list = nodes.handle;
+    EXPECT_TRUE(fails(set_ids(list, few), CONN_E_ARGUMENT, {"global_ids has 9", "10"}));
+    EXPECT_TRUE(fails(set_ids(list, ids, {7}), CONN_E_ARGUMENT, {"owner has 1", "2"}));
+    EXPECT_TRUE(fails(set_ids(list, ids, {7, 8}), CONN_E_ARGUMENT, {"owner[1] = 8", "[0, 8)"}));
+    EXPECT_TRUE(fails(set_ids(list, ids, {-2, 0}), CONN_E_ARGUMENT, {"owner[0] = -2"}));
+    EXPECT_TRUE(
+        fails(conn_nodes_set_ids(unset.handle, nullptr, nullptr), CONN_E_ARGUMENT, {"never set"}));
+    conn_array nowhere = conn_array_vector_int64(nullptr, 10), real = conn_array_vector(nullptr, 0);
+    EXPECT_TRUE(fails(conn_nodes_set_ids(list, &nowhere, nullptr), CONN_E_NULL, {"global_ids"}));
+    EXPECT_TRUE(fails(conn_nodes_set_ids(list, nullptr, &real), CONN_E_ARGUMENT,
+                      {"owner.dtype = 0", "CONN_INT32"}));
+    EXPECT_TRUE(ok(set_ids(list, ids, {-1, 7})));
+}
+
+TEST(CapiKeyOrder, names_may_be_of_either_width_and_have_a_stride) {
+    const Context context;
+    NodeSet set = random_nodes(2, 40, 3);
+    set.n_internal = 30;
+    for (std::size_t k = 0; k < 80; ++k) set.x[k] = 0.5;  // names alone decide
+    conn_map_options options = CONN_MAP_OPTIONS_INIT;
+    options.order = CONN_ORDER_KEY;
+    const Built built(context, 2, {set}, options);
+    std::vector<std::int32_t> narrow(120, -7), owner(20, -1);
+    std::vector<std::int64_t> wide(40), wide_owner(10, -1);
+    for (std::size_t a = 0; a < 40; ++a)
+        wide[39 - a] = narrow[3 * a] = static_cast<std::int32_t>((a * 17) % 40);
+    conn_array names = conn_array_vector_int32(narrow.data(), 40),
+               owners = conn_array_vector_int32(owner.data(), 10);
+    names.stride[0] = 3, owners.stride[0] = 2;
+    const auto order = [&] {
+        EXPECT_TRUE(ok(built.rebuild()));
+        return two_calls<std::int32_t>(
+            [&](std::int32_t* out, std::int64_t room, std::int64_t* count) {
+                return conn_map_key_order(built.map.handle, out, nullptr, nullptr, room, count);
+            });
     };
-    EXPECT_TRUE(fails(set_ids(ids, 9, nullptr, 0), CONN_E_ARGUMENT, {"n = 9", "10"}));
-    EXPECT_TRUE(fails(set_ids(nullptr, 10, nullptr, 0), CONN_E_NULL, {"global_ids"}));
-    EXPECT_TRUE(fails(set_ids(ids, -1, nullptr, 0), CONN_E_ARGUMENT, {"n = -1"}));
-    EXPECT_TRUE(fails(set_ids(nullptr, 0, owner, 1), CONN_E_ARGUMENT, {"n_ghosts = 1", "2"}));
-    EXPECT_TRUE(fails(set_ids(nullptr, 0, owner, 2), CONN_E_ARGUMENT, {"owner[1] = 8", "[0, 8)"}));
-    EXPECT_TRUE(fails(set_ids(nullptr, 0, wrong, 2), CONN_E_ARGUMENT, {"owner[0] = -2"}));
-    EXPECT_TRUE(fails(conn_nodes_set_ids(unset.handle, nullptr, 0, nullptr, 0), CONN_E_ARGUMENT,
-                      {"never set"}));
-    EXPECT_TRUE(ok(set_ids(ids, 10, owner, 0)));
+    ASSERT_TRUE(ok(conn_nodes_set_ids(built.lists[0], &names, &owners)));
+    const Slots strided = order();
+    for (std::size_t k = 0; k < 40; ++k)
+        EXPECT_EQ(narrow[3 * static_cast<std::size_t>(strided[k])], static_cast<int>(k));
+    conn_array backwards = conn_array_vector_int64(wide.data() + 39, 40);
+    const conn_array own = conn_array_vector_int64(wide_owner.data(), 10);
+    backwards.stride[0] = -1;
+    ASSERT_TRUE(ok(conn_nodes_set_ids(built.lists[0], &backwards, &own)));
+    EXPECT_EQ(order(), strided);
 }
 
 }  // namespace

@@ -13,11 +13,12 @@ class FuzzFields : public Garbage {
 public:
     using Garbage::Garbage;
 
-    int n_patched = 0, n_summed = 0, n_bounded = 0;  ///< calls that got through
+    /// calls that got through
+    int n_patched = 0, n_summed = 0, n_bounded = 0, n_estimated = 0;
 
 protected:
     void call_fields() {
-        switch (random_.below(9)) {
+        switch (random_.below(12)) {
             case 0: return set_ids();
             case 1: return exclude();
             case 2: return patch();
@@ -26,6 +27,9 @@ protected:
             case 5: return field();
             case 6: return sum();
             case 7: return add_boundary();
+            case 8: return copies();
+            case 9: return reorder();
+            case 10: return estimate();
             default: return update_boundaries();
         }
     }
@@ -50,8 +54,13 @@ private:
         conn_nodes* const list = nodes();
         conn_nodes_size(list, &n, &n_internal);
         if (random_.chance(0.3)) n = random_.below(room);
-        conn_nodes_set_ids(list, random_.chance(0.8) ? ids : nullptr, n, numbers(),
-                           random_.chance(0.8) ? n - n_internal : random_.below(room));
+        conn_array names = conn_array_vector_int64(ids, n),
+                   owner = conn_array_vector_int32(
+                       numbers(), random_.chance(0.8) ? n - n_internal : random_.below(room));
+        if (random_.chance(0.1)) names = array();
+        if (random_.chance(0.1)) owner = array();
+        conn_nodes_set_ids(list, random_.chance(0.8) ? &names : nullptr,
+                           random_.chance(0.8) ? &owner : nullptr);
     }
     void exclude() {
         conn_map_set_exclusion(map(), random_.chance(0.3) ? is_odd : nullptr, nullptr);
@@ -93,6 +102,50 @@ private:
                                    std::min(n_lists, 4), to, capacity, counted);
         const std::int32_t *const i = numbers(), *const j = numbers();
         conn_map_find_pairs(map(), random_.chance(0.9) ? capacity : -1, i, j, pair);
+    }
+    void copies() {
+        std::int64_t n[2] = {}, offsets[room];
+        std::int32_t slots[room];
+        double coupling[room];
+        const auto maybe = [&](auto* p) { return random_.chance(0.8) ? p : nullptr; };
+        conn_map_rows_copy(map(), maybe(offsets), random_.below(room), maybe(&n[0]), maybe(slots),
+                           random_.below(room), maybe(&n[1]));
+        conn_map_pairs_copy(map(), maybe(slots), maybe(slots), maybe(coupling), random_.below(room),
+                            maybe(&n[0]));
+        conn_map_memory(map(), random_.chance(0.5) ? 0 : number(), maybe(&n[0]), maybe(&n[1]));
+    }
+    /// Layouts inside the memory, or so large that they must be refused.
+    void reorder() {
+        std::int32_t* const order = numbers();
+        std::array<double, room> out;
+        conn_array a = conn_array_matrix_of(random_.below(4), memory_.data(), random_.below(6),
+                                            1 + random_.below(3));
+        a.stride[0] = random_.below(9), a.stride[1] = random_.below(5);
+        if (random_.chance(0.1)) a.ndim = number();
+        if (random_.chance(0.1)) a.dtype = number();
+        if (random_.chance(0.1)) a.space = number();
+        if (random_.chance(0.1)) a.extent[1] = -random_.below(5);
+        if (random_.chance(0.1))
+            a.stride[0] = static_cast<std::int64_t>(random_.bits() >> 2 | 1ull << 62);
+        if (random_.chance(0.1)) a.data = nullptr;
+        if (order != nullptr && random_.chance(0.7))
+            for (int k = 0; k < 6; ++k) order[k] = 5 - k - static_cast<int>(6 - a.extent[0]);
+        conn_reorder(random_.chance(0.95) ? &a : nullptr, order,
+                     random_.chance(0.9) ? a.extent[0] : long_number(), random_.below(4) - 1,
+                     random_.chance(0.9) ? out.data() : nullptr);
+    }
+    void estimate() {
+        conn_nodes* const some[4] = {nodes(), nodes(), nodes(), nodes()};
+        with_struct<conn_estimate>([&](auto* s) {
+            if (conn_map_estimate(map(), random_.chance(0.95) ? some : nullptr,
+                                  random_.chance(0.8) ? 1 : random_.below(6) - 1, s) == CONN_OK)
+                ++n_estimated;
+        });
+        static const conn_log_callback listen = [](void*, std::int32_t, const char* line) {
+            EXPECT_NE(line, nullptr);
+        };
+        conn_context_set_log(context(), random_.chance(0.7) ? random_.below(4) : number(),
+                             random_.chance(0.9) ? listen : nullptr, nullptr);
     }
     void couple() {
         std::int64_t n = random_.below(room);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include <connectivity_boundary.h>
 #include <support/random.hpp>
 #include "capi_support.hpp"
 
@@ -22,6 +23,12 @@ public:
                                              &lists_[static_cast<std::size_t>(k)])));
         dead_nodes_ = lists_[3];
         conn_nodes_destroy(&lists_[3]);
+        if (seed % 2 == 1) {  // as Fortran does
+            conn_map_options options = CONN_MAP_OPTIONS_INIT;
+            options.index_base = index_base_ = 1;
+            EXPECT_TRUE(ok(conn_map_destroy(&map_.handle)));
+            EXPECT_TRUE(ok(conn_map_create(context_.handle, &options, &map_.handle)));
+        }
         EXPECT_TRUE(ok(conn_map_create(context_.handle, nullptr, &dead_map_)));
         conn_map* copy = dead_map_;
         conn_map_destroy(&copy);
@@ -90,9 +97,10 @@ protected:
     template <class T, class Call>
     void with_struct(const Call& call) {
         alignas(T) unsigned char bytes[8192] = {};
-        const bool is_noise = random_.chance(0.3);
-        if (is_noise)
-            for (unsigned char& byte : bytes) byte = static_cast<unsigned char>(random_.bits());
+        if (random_.chance(0.3)) {
+            Random noise(random_.bits());
+            for (unsigned char& byte : bytes) byte = static_cast<unsigned char>(noise.bits());
+        }
         std::size_t size = sizeof(T);
         if (random_.chance(0.2)) size = static_cast<std::size_t>(long_number());
         if (random_.chance(0.2)) size += static_cast<std::size_t>(random_.below(64));
@@ -102,6 +110,7 @@ protected:
     }
 
     Random random_;
+    std::int32_t index_base_ = 0;
     std::array<double, room> memory_{};
     Context context_;
     Nodes nodes_{context_, 3};

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <thread>
 
+#include <connectivity_boundary.h>
+
 #include "capi_support.hpp"
 
 namespace connectivity::test {
@@ -132,7 +134,8 @@ TEST(CapiStructs, sizes_are_those_of_the_header) {
     EXPECT_EQ(conn_abi_sizeof(CONN_STRUCT_REPORT_ENTRY), sizeof(conn_report_entry));
     EXPECT_EQ(conn_abi_sizeof(CONN_STRUCT_INTERSECTION_VIEW), sizeof(conn_intersection_view));
     EXPECT_EQ(conn_abi_sizeof(CONN_STRUCT_BOUNDARY_NODES), sizeof(conn_boundary_nodes));
-    for (const int unknown : {-1, 0, 10, 1 << 30}) EXPECT_EQ(conn_abi_sizeof(unknown), 0);
+    EXPECT_EQ(conn_abi_sizeof(CONN_STRUCT_ESTIMATE), sizeof(conn_estimate));
+    for (const int unknown : {-1, 0, 11, 1 << 30}) EXPECT_EQ(conn_abi_sizeof(unknown), 0);
 }
 
 /// A struct of a later version: ours, and more behind it.
@@ -175,11 +178,13 @@ TEST(CapiStructs, hosts_of_older_map_options_get_the_defaults_of_what_they_do_no
     const std::uint8_t none[1] = {7};
     for (const std::size_t size :
          {offsetof(conn_map_options, skin), offsetof(conn_map_options, overlap),
-          offsetof(conn_map_options, active), offsetof(conn_map_options, interactions)}) {
+          offsetof(conn_map_options, active), offsetof(conn_map_options, interactions),
+          offsetof(conn_map_options, index_base)}) {
         conn_map_options options = CONN_MAP_OPTIONS_INIT;
         if (size <= offsetof(conn_map_options, overlap)) options.overlap = options.order = -5;
         if (size <= offsetof(conn_map_options, active)) options.active = none;
-        options.interactions = none;
+        if (size <= offsetof(conn_map_options, interactions)) options.interactions = none;
+        options.index_base = -5;
         options.struct_size = size;
         conn_map* map = nullptr;
         EXPECT_TRUE(ok(conn_map_create(context.handle, &options, &map)));
@@ -209,8 +214,9 @@ TEST(CapiStructs, a_size_that_no_host_can_have_is_refused) {
     const Nodes nodes(context, 3, random_nodes(3, 30, 1));
     const Map map(context);
     ASSERT_TRUE(ok(map.rebuild({nodes.handle})));
-    for (const std::size_t size : {std::size_t{0}, std::size_t{8}, sizeof(conn_context_options) - 1,
-                                   std::size_t{4097}, ~std::size_t{0}}) {
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{8}, offsetof(conn_context_options, stream) - 1,
+          std::size_t{4097}, ~std::size_t{0}}) {
         conn_context_options c = CONN_CONTEXT_OPTIONS_INIT;
         conn_map_options o = CONN_MAP_OPTIONS_INIT;
         conn_map_info i = CONN_MAP_INFO_INIT;

@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <connectivity_boundary.h>
 #include <connectivity_query.h>
 
 enum { side = 12, n = side * side, n_pairs = 2 * side * (side - 1) };

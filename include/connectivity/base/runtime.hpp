@@ -9,6 +9,7 @@
 #include <functional>
 #include <new>
 #include <string>
+#include <vector>
 
 #include <connectivity/base/error.hpp>
 #include <connectivity/base/kokkos_shim.hpp>
@@ -56,5 +57,11 @@ void at_runtime_stop(std::function<void()> release);
 
 /// "Kokkos 4.6.1 OpenMP Serial" and the like.
 std::string runtime_description();
+
+/// Kokkos's execution spaces by name, those of devices first.
+std::vector<std::string> runtime_backends();
+
+/// Whether one of them runs on what is no host.
+bool runtime_has_device();
 
 }  // namespace connectivity

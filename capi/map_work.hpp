@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// What goes around every call that changes a map: its line in the log, and the high-water mark of
+/// its memory.
+
+#include <exception>
+
+#include <connectivity/base/report.hpp>
+
+#include "objects.hpp"
+
+namespace connectivity::capi {
+
+/// Bytes the map holds now, without what only views of older generations hold.
+Offset held_bytes(const conn_map& map);
+
+/// Bytes that views of older generations hold.
+Offset pinned_bytes(const conn_map& map);
+
+/// Sees to the high-water mark; call it wherever memory may have grown. Returns the bytes now.
+Offset note_memory(const conn_map& map);
+
+/// Lines about a piece of work that failed, or succeeded.
+void log_failure(const conn_map& map, const char* work, const char* text);
+void log_success(const conn_map& map, const char* work, double ms);
+
+/// Runs body() as a piece of work on the map.
+template <class Body>
+void work_on(const conn_map& map, const char* work, const Body& body) {
+    const Stopwatch watch;
+    try {
+        body();
+    } catch (const std::exception& e) {
+        log_failure(map, work, e.what());
+        throw;
+    }
+    const double ms = watch.ms();
+    note_memory(map);
+    log_success(map, work, ms);
+}
+
+}  // namespace connectivity::capi
