@@ -5,6 +5,8 @@
 
 #include "peer.hpp"
 
+#include <algorithm>
+
 #include <Cabana_Core.hpp>
 
 #include <connectivity/base/spaces.hpp>
@@ -44,7 +46,7 @@ protected:
     }
 
 private:
-    /// Of the grid of cells, which the caller has to tell.
+    /// Of the grid of cells, which the caller has to tell; less than a cell wide, it fails.
     void bounds(double (&low)[Dim], double (&high)[Dim]) const {
         const double* const from = x();
         for (int d = 0; d < Dim; ++d) {
@@ -56,7 +58,7 @@ private:
                     r.max_val = std::max(r.max_val, from[Dim * i + d]);
                 },
                 Kokkos::MinMax<double>(range));
-            low[d] = range.min_val, high[d] = range.max_val;
+            low[d] = range.min_val - R() / 2, high[d] = range.max_val + R() / 2;
         }
     }
 
