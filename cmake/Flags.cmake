@@ -30,17 +30,38 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
     target_compile_options(connectivity_flags INTERFACE
         $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds>)
 endif()
+if(CMAKE_CXX_COMPILER_ID MATCHES Clang)  # some warnings that are switched off are GCC's alone
+    target_compile_options(connectivity_flags INTERFACE -Wno-unknown-warning-option)
+endif()
 if(CONNECTIVITY_WERROR)
     target_compile_options(connectivity_flags INTERFACE -Werror)
 endif()
 
-if(CONNECTIVITY_SANITIZE)
+# Builds that look: what -fsanitize is given, empty in others. ThreadSanitizer must know the OpenMP
+# runtime, which only clang's tells it; libFuzzer is clang's.
+set(CONNECTIVITY_SANITIZERS "")
+if(CONNECTIVITY_FUZZ)
+    set(CONNECTIVITY_SANITIZERS fuzzer-no-link,address,undefined,float-cast-overflow)
+elseif(CONNECTIVITY_SANITIZE STREQUAL thread)
+    set(CONNECTIVITY_SANITIZERS thread)
+elseif(CONNECTIVITY_SANITIZE STREQUAL address OR CONNECTIVITY_SANITIZE STREQUAL ON)
+    set(CONNECTIVITY_SANITIZERS address,undefined)
+elseif(CONNECTIVITY_SANITIZE)
+    message(FATAL_ERROR "CONNECTIVITY_SANITIZE is '${CONNECTIVITY_SANITIZE}': OFF, address (or ON) "
+        "or thread")
+endif()
+if(CONNECTIVITY_SANITIZERS MATCHES "fuzzer|thread" AND NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    message(FATAL_ERROR "CONNECTIVITY_FUZZ and CONNECTIVITY_SANITIZE=thread need clang, this is "
+        "${CMAKE_CXX_COMPILER_ID}: configure with -DCMAKE_CXX_COMPILER=clang++ "
+        "-DCMAKE_C_COMPILER=clang, or use sh cmake/test.sh --fuzz or --sanitize=thread")
+endif()
+if(CONNECTIVITY_SANITIZERS)
     # -O1 because stacks stay readable; asserts are on because this is the build that looks. Checked
     # code makes GCC see uninitialised values in the standard library's <regex>.
-    target_compile_options(connectivity_flags INTERFACE -fsanitize=address,undefined
+    target_compile_options(connectivity_flags INTERFACE -fsanitize=${CONNECTIVITY_SANITIZERS}
         -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1 -UNDEBUG
         -Wno-maybe-uninitialized)
-    target_link_options(connectivity_flags INTERFACE -fsanitize=address,undefined)
+    target_link_options(connectivity_flags INTERFACE -fsanitize=${CONNECTIVITY_SANITIZERS})
 endif()
 
 # Options every target of the project shares; a function, because properties do not travel.

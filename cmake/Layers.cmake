@@ -96,7 +96,10 @@ function(connectivity_shared_library objects)
         "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/capi;${PROJECT_SOURCE_DIR}/include>")
     target_link_libraries(connectivity PRIVATE Kokkos::kokkos)
     target_link_options(connectivity PRIVATE "LINKER:--version-script=${map}"
-        LINKER:-z,nodelete LINKER:-z,defs LINKER:-Bsymbolic-functions)
+        LINKER:-z,nodelete LINKER:-Bsymbolic-functions)
+    if(NOT CONNECTIVITY_SANITIZERS)  # clang has their runtime in the program alone
+        target_link_options(connectivity PRIVATE LINKER:-z,defs)
+    endif()
     set_target_properties(connectivity PROPERTIES VERSION ${PROJECT_VERSION}
         SOVERSION ${PROJECT_VERSION_MAJOR} LINK_DEPENDS "${map}" LINKER_LANGUAGE CXX
         LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}" INSTALL_RPATH_USE_LINK_PATH ON)

@@ -22,10 +22,23 @@ endif()
 
 # Tests run side by side: threads that wait must not spin, and a test counts as two processors.
 set(CONNECTIVITY_TEST_ENVIRONMENT OMP_PROC_BIND=false OMP_WAIT_POLICY=passive)
-if(CONNECTIVITY_SANITIZE)
+if(CONNECTIVITY_SANITIZERS)
     list(APPEND CONNECTIVITY_TEST_ENVIRONMENT
         "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0"
         UBSAN_OPTIONS=print_stacktrace=1)
+endif()
+if(CONNECTIVITY_SANITIZERS STREQUAL thread)
+    # LLVM's OpenMP tells ThreadSanitizer, by way of its library archer, what its threads wait for;
+    # it is not instrumented itself.
+    execute_process(COMMAND "${CMAKE_CXX_COMPILER}" -print-resource-dir
+        OUTPUT_VARIABLE resources OUTPUT_STRIP_TRAILING_WHITESPACE)
+    find_library(CONNECTIVITY_ARCHER archer HINTS "${resources}/../..")
+    if(NOT CONNECTIVITY_ARCHER)
+        message(FATAL_ERROR "${CMAKE_CXX_COMPILER} has no libarcher.so (Debian: libomp-dev): "
+            "without it ThreadSanitizer takes every barrier of OpenMP for a race")
+    endif()
+    list(APPEND CONNECTIVITY_TEST_ENVIRONMENT "OMP_TOOL_LIBRARIES=${CONNECTIVITY_ARCHER}"
+        "TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=0:exitcode=66")
 endif()
 
 # connectivity_test(<folder> LABEL <label>): one executable from the folder's *_test.cpp.

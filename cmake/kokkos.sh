@@ -3,7 +3,8 @@
 # Finds a usable Kokkos, or builds one from source into a cache outside every build tree, and
 # prints the directory of its KokkosConfig.cmake. Messages go to stderr. No root needed.
 #
-#   sh kokkos.sh [--cxx COMPILER] [--kind private|shared] [--find-only] [-DHINT=VALUE]...
+#   sh kokkos.sh [--cxx COMPILER] [--kind private|shared] [--sanitize thread] [--find-only]
+#                [-DHINT=VALUE]...
 #
 # The order: what find_package finds; the cache; then sources: the pinned release, the sdist of
 # pykokkos-base (3.5 MB), Debian's source package of trilinos (166 MB); both carry Kokkos 3.4.01.
@@ -20,6 +21,7 @@ sdist_sha256=6339daced1e81a2748f381847d8717cd77d824407da3c263b9491b5630c642b0
 
 cxx=${CXX:-c++}
 kind=private
+sanitize=
 find_only=no
 here=$(cd "$(dirname "$0")" && pwd)
 
@@ -29,6 +31,7 @@ while [ $# -gt 0 ]; do
     case $1 in
     --cxx) cxx=$2; shift 2 ;;
     --kind) kind=$2; shift 2 ;;
+    --sanitize) sanitize=$2; shift 2 ;;
     --find-only) find_only=yes; shift ;;
     -D*) break ;;
     *) say "unknown argument $1"; exit 2 ;;
@@ -46,6 +49,7 @@ compiler=$(printf '#ifdef __clang__\nclang __clang_major__\n#else\ngnu __GNUC__\
     "$cxx" -E -P -x c++ - | tr -d ' \n')
 backends=serial-openmp
 [ "$kind" = private ] || backends=$backends-shared
+[ -z "$sanitize" ] || backends=$backends-$sanitize-sanitizer
 
 # probe [-DHINT=VALUE]...: prints the directory of the Kokkos that CMake finds, if we can use it.
 probe() {
@@ -146,6 +150,7 @@ build() {
     say "building $(basename "$prefix")"
     cmake -S "$work/source" -B "$work/build" -DCMAKE_BUILD_TYPE=Release \
         -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_CXX_STANDARD=17 -DCMAKE_CXX_EXTENSIONS=OFF \
+        ${sanitize:+"-DCMAKE_CXX_FLAGS=-fsanitize=$sanitize -g1"} \
         -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DBUILD_SHARED_LIBS=$shared \
         -DKokkos_ENABLE_SERIAL=ON -DKokkos_ENABLE_OPENMP=ON -DKokkos_ENABLE_TESTS=OFF \
         -DKokkos_ENABLE_DEPRECATED_CODE_3=OFF -DKokkos_ENABLE_DEPRECATED_CODE_4=OFF \
@@ -161,8 +166,11 @@ if command -v ninja > /dev/null; then
     export CMAKE_GENERATOR
 fi
 
-say "is one installed that we can use?"
-if probe "$@"; then exit 0; fi
+# ThreadSanitizer must see every access, so an installed one will not do.
+if [ -z "$sanitize" ]; then
+    say "is one installed that we can use?"
+    if probe "$@"; then exit 0; fi
+fi
 
 say "is one in the cache $cache?"
 if find_cached; then exit 0; fi
