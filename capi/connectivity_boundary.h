@@ -72,8 +72,8 @@ typedef struct conn_boundary_nodes {
     const double* x;          /**< [n][dim] */
     const double* h;          /**< [n], NULL for tensors */
     const double* H;          /**< [n][dim*(dim+1)/2], NULL for scalars */
-    const int32_t* owner;     /**< [n - n_internal] the internal node that each ghost is finally an
-                                 image of; NULL without ghosts */
+    const int32_t* owner;     /**< [n - n_internal] the internal node, counted from 0, that each
+                                   ghost is finally an image of; NULL without ghosts */
     const int64_t* global_id; /**< [n] ghosts have that of their owner; NULL if none were set */
 } conn_boundary_nodes;
 #define CONN_BOUNDARY_NODES_INIT \

@@ -87,8 +87,8 @@ conn_status conn_map_destroy(conn_map** map) {
 conn_status conn_map_rebuild(conn_map* map, conn_nodes* const* lists, int32_t n_lists) {
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_map>(map, "map");
-        const std::vector<NodeList> nodes = read_lists(lists, n_lists);
-        work_on(ours, "rebuild", [&] { ours.map->rebuild(nodes, options_of(ours)); });
+        work_on(ours, "rebuild",
+                [&] { ours.map->rebuild(read_lists(lists, n_lists), options_of(ours)); });
     });
 }
 

@@ -44,14 +44,14 @@ Offset pinned_bytes(const conn_map& map) {
     std::set<const void*> counted;  // arrays of the present lists, and those that several pins hold
     Offset bytes = 0;
     const auto walk = [&](bool current) {
-        Registry::instance().for_each<ViewPin>([&](const ViewPin& pin) {
-            const bool is_current = map.map && pin.generation == map.map->generation();
-            if (pin.map_number != map.number || is_current != current) return;
-            pin.for_each_array([&](const void* data, std::size_t size) {
+        for (const ViewPin* const pin : ViewPin::live()) {
+            const bool is_current = map.map && pin->generation == map.map->generation();
+            if (pin->map_number != map.number || is_current != current) continue;
+            pin->for_each_array([&](const void* data, std::size_t size) {
                 if (data != nullptr && counted.insert(data).second && !current)
                     bytes += static_cast<Offset>(size);
             });
-        });
+        }
     };
     walk(true);
     walk(false);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include <connectivity/boundary/boundaries.hpp>
@@ -122,6 +123,16 @@ void write_first_nodes(const NodePairList::View<>& pairs, IndexBase base, Slot* 
 struct ViewPin : Handle {
     std::uint64_t map_number = 0;
     Generation generation = 0;
+
+    ViewPin() { live().insert(this); }
+    ~ViewPin() override { live().erase(this); }
+    ViewPin(const ViewPin&) = delete;
+    ViewPin& operator=(const ViewPin&) = delete;
+    /// All there are, of all maps; used under the call mutex.
+    static std::unordered_set<const ViewPin*>& live() {
+        static auto* const leaked = new std::unordered_set<const ViewPin*>;
+        return *leaked;
+    }
 
     using ArrayFunction = std::function<void(const void* data, std::size_t bytes)>;
     /// f for every array it holds.

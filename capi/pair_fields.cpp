@@ -74,18 +74,18 @@ conn_status conn_map_patch(conn_map* map, const int32_t* keep, const int32_t* ol
                            int64_t n_slots, conn_pair_field* const* fields, int32_t n_fields) {
     return guarded_with_runtime(__func__, [&] {
         auto& handle = Registry::instance().get<conn_map>(map, "map");
-        ConnectivityMap& ours = *handle.map;
-        check_count(keep, n_slots, max_slots, "keep", "n_slots");
-        check_count(old2new, n_slots, max_slots, "old2new", "n_slots");
-        const auto n = static_cast<std::size_t>(n_slots);
-        std::vector<Slot> based;
-        const bool converts = !handle.base.is_zero() && n_slots == ours.layout().n_slots();
-        if (converts) {
-            based.assign(old2new, old2new + n);
-            for (Slot& node : based) node = handle.base.in(node);
-        }
-        const Slot* const new_nodes = converts ? based.data() : old2new;
         work_on(handle, "patch", [&] {
+            ConnectivityMap& ours = *handle.map;
+            check_count(keep, n_slots, max_slots, "keep", "n_slots");
+            check_count(old2new, n_slots, max_slots, "old2new", "n_slots");
+            const auto n = static_cast<std::size_t>(n_slots);
+            std::vector<Slot> based;
+            const bool converts = !handle.base.is_zero() && n_slots == ours.layout().n_slots();
+            if (converts) {
+                based.assign(old2new, old2new + n);
+                for (Slot& node : based) node = handle.base.in(node);
+            }
+            const Slot* const new_nodes = converts ? based.data() : old2new;
             ours.patch({keep, n}, {new_nodes, n}, read_fields(ours, fields, n_fields));
         });
     });
@@ -95,11 +95,10 @@ conn_status conn_map_remove_pairs(conn_map* map, conn_pair_predicate predicate, 
                                   conn_pair_field* const* fields, int32_t n_fields) {
     return guarded_with_runtime(__func__, [&] {
         auto& handle = Registry::instance().get<conn_map>(map, "map");
-        ConnectivityMap& ours = *handle.map;
-        required(predicate, "predicate");
         work_on(handle, "remove_pairs", [&] {
-            ours.remove_pairs(HostPredicate{predicate, user_data, handle.base},
-                              read_fields(ours, fields, n_fields));
+            required(predicate, "predicate");
+            handle.map->remove_pairs(HostPredicate{predicate, user_data, handle.base},
+                                     read_fields(*handle.map, fields, n_fields));
         });
     });
 }

@@ -57,13 +57,6 @@ public:
         *pointer = nullptr;
     }
 
-    /// f(object) for every live object that is a T, in any order.
-    template <class T, class F>
-    void for_each(const F& f) const {
-        for (const auto& [pointer, object] : live_)
-            if (const auto* const typed = dynamic_cast<const T*>(object.get())) f(*typed);
-    }
-
 private:
     Handle* find(const void* pointer, const std::string& name) const;
     void remove(const void* pointer);

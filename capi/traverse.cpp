@@ -85,14 +85,14 @@ conn_status conn_map_traverse(conn_map* map, conn_nodes* const* lists, int32_t n
                               int32_t what, conn_rows_callback callback, void* user_data) {
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_map>(map, "map");
-        const std::vector<NodeList> nodes = read_lists(lists, n_lists);
-        if (what != CONN_ROWS && what != CONN_PAIRS)
-            throw Error(Status::argument,
-                        "what = " + std::to_string(what) + ", must be CONN_ROWS or CONN_PAIRS");
-        if (callback == nullptr) throw Error(Status::null, "callback is NULL");
-        const MapOptions options = options_of(ours);
-        BlockCallback blocks(callback, user_data, ours.base);
         work_on(ours, "traversal", [&] {
+            const std::vector<NodeList> nodes = read_lists(lists, n_lists);
+            if (what != CONN_ROWS && what != CONN_PAIRS)
+                throw Error(Status::argument,
+                            "what = " + std::to_string(what) + ", must be CONN_ROWS or CONN_PAIRS");
+            if (callback == nullptr) throw Error(Status::null, "callback is NULL");
+            const MapOptions options = options_of(ours);
+            BlockCallback blocks(callback, user_data, ours.base);
             if (what == CONN_ROWS)
                 ours.map->for_each_row(nodes, options, blocks);
             else

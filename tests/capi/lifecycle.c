@@ -126,6 +126,11 @@ static void require_all(host* h, conn_status expected) {
     conn_context* context = NULL;
     conn_map* map = NULL;
     conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
+    conn_estimate estimate = CONN_ESTIMATE_INIT;
+    const double one = 1;
+    double out = 0;
+    const int32_t zero = 0;
+    const conn_array array = conn_array_vector(&one, 1);
     REQUIRE(conn_context_create(NULL, &context) == expected && context == NULL);
     REQUIRE(conn_map_create(h->context, NULL, &map) == expected && map == NULL);
     REQUIRE(set_nodes(h) == expected);
@@ -136,6 +141,12 @@ static void require_all(host* h, conn_status expected) {
     REQUIRE(conn_map_validate(h->map, &h->nodes, 1, &n_failed, NULL, 0, NULL) == expected);
     REQUIRE(conn_query_update(h->query, &h->nodes, 1, NULL) == expected);
     REQUIRE(conn_query_neighbours(h->query, 0, CONN_GATHER, NULL, 0, &count) == expected);
+    REQUIRE(conn_map_estimate(h->map, &h->nodes, 1, &estimate) == expected);
+    REQUIRE(conn_map_memory(h->map, CONN_SPACE_HOST, &count, NULL) == expected);
+    REQUIRE(conn_map_rows_copy(h->map, NULL, 0, &count, NULL, 0, &count) == expected);
+    REQUIRE(conn_map_pairs_copy(h->map, NULL, NULL, NULL, 0, &count) == expected);
+    REQUIRE(conn_context_set_log(h->context, CONN_LOG_NONE, NULL, NULL) == expected);
+    REQUIRE(conn_reorder(&array, &zero, 1, 0, &out) == expected);
     REQUIRE(conn_pair_field_reset(h->field, h->with_ghosts) == expected);
     REQUIRE(conn_map_set_coupling(h->map, NULL, 0) == expected);
     REQUIRE(conn_boundaries_update(h->boundaries, h->map, &h->nodes, 1, CONN_GHOSTS_CULL) ==

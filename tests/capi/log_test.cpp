@@ -2,6 +2,8 @@
 // The log of a context: silent until asked, one line for each piece of work on a map, and no more
 // once the context has gone.
 
+#include <connectivity_boundary.h>
+
 #include "capi_support.hpp"
 
 namespace connectivity::test {
@@ -89,6 +91,40 @@ TEST_F(CapiLog, failures_say_what_the_last_error_says) {
     EXPECT_EQ(lines[0].level, CONN_LOG_ERROR);
     const std::string error = conn_last_error();
     EXPECT_TRUE(has(lines[0], {"rebuild: ", error.substr(error.find(": ") + 2)})) << lines[0].text;
+}
+
+TEST_F(CapiLog, arguments_that_are_refused_at_the_door_are_failures_too) {
+    ASSERT_TRUE(ok(listen(CONN_LOG_ERROR)));
+    EXPECT_TRUE(fails(rebuild(0), CONN_E_ARGUMENT));
+    EXPECT_TRUE(
+        fails(conn_map_patch(map.handle, nullptr, nullptr, -1, nullptr, 0), CONN_E_ARGUMENT));
+    EXPECT_TRUE(
+        fails(conn_map_remove_pairs(map.handle, nullptr, nullptr, nullptr, 0), CONN_E_NULL));
+    EXPECT_TRUE(fails(conn_map_traverse(map.handle, &nodes.handle, 1, 9, nullptr, nullptr),
+                      CONN_E_ARGUMENT));
+    ASSERT_EQ(lines.size(), 4u);
+    EXPECT_TRUE(has(lines[0], {"rebuild: n_lists = 0"})) << lines[0].text;
+    EXPECT_TRUE(has(lines[1], {"patch: n_slots = -1"})) << lines[1].text;
+    EXPECT_TRUE(has(lines[2], {"remove_pairs: predicate"})) << lines[2].text;
+    EXPECT_TRUE(has(lines[3], {"traversal: what = 9"})) << lines[3].text;
+}
+
+TEST_F(CapiLog, an_update_of_boundaries_is_one_line_with_the_ghosts_in_it) {
+    const double wall[] = {0, 0, 0, 1, 0, 0};
+    conn_boundaries* boundaries = nullptr;
+    ASSERT_TRUE(ok(conn_boundaries_create(context.handle, 3, &boundaries)));
+    ASSERT_TRUE(ok(conn_boundaries_add(boundaries, CONN_BOUNDARY_REFLECTING, "wall", wall, 1)));
+    ASSERT_TRUE(ok(listen(CONN_LOG_INFO)));
+    ASSERT_TRUE(
+        ok(conn_boundaries_update(boundaries, map.handle, &nodes.handle, 1, CONN_GHOSTS_KEEP)));
+    conn_boundary_nodes all = CONN_BOUNDARY_NODES_INIT;
+    ASSERT_TRUE(ok(conn_boundaries_get_nodes(boundaries, 0, &all)));
+    EXPECT_GT(all.n, 200);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_TRUE(has(lines[0], {": boundaries: generation 1, 1 lists, " + std::to_string(all.n) +
+                               " slots, 200 rows, "}))
+        << lines[0].text;
+    EXPECT_TRUE(ok(conn_boundaries_destroy(&boundaries)));
 }
 
 TEST_F(CapiLog, debug_adds_a_line_for_each_product_that_was_built) {
