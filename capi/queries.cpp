@@ -67,9 +67,8 @@ conn_status conn_map_find_pairs(const conn_map* map, int64_t n, const int32_t* i
     return guarded_with_runtime(__func__, [&] {
         const conn_map& handle = handle_of(map);
         const NodePairList::View<> pairs = handle.map->pairs().view();
-        const auto number = [=, base = handle.base](Offset k) {
-            return pairs.find(base.in(i[k]), base.in(j[k]));
-        };
+        const IndexBase base = handle.base;
+        const auto number = [=](Offset k) { return pairs.find(base.in(i[k]), base.in(j[k])); };
         constexpr std::int64_t limit = std::int64_t{1} << 48;
         check_count(i, n, limit, "i", "n");
         check_count(j, n, limit, "j", "n");
