@@ -123,8 +123,11 @@ public:
         if (tensor) job["n_pairs"]["tensor"] = counts_.of(cases[0].cloud(), true);
         if (yardstick != nullptr) measure(*yardstick, job);
         if (job["cases"].empty()) return;
-        status_ = std::max(status_, run_group(job, cases[0].threads, a_, record_));
-        join();
+        const int status = run_group(job, cases[0].threads, a_, record_);
+        const bool joined = join();
+        if (status == 0 && !joined)
+            std::cerr << "error: no readable record of " << job["cases"].dump() << '\n';
+        status_ = std::max(status_, status == 0 && !joined ? 1 : status);
         if (yardstick != nullptr) measure(*yardstick, job);
     }
 
@@ -141,13 +144,14 @@ private:
             runs_.push_back(run);
     }
 
-    void join() {
+    bool join() {
         std::ifstream file(record_);
         const json one = json::parse(file, nullptr, false);
         std::remove(record_.c_str());
-        if (one.is_discarded()) return;
+        if (one.is_discarded()) return false;
         if (context_.is_null()) context_ = one["context"];
         for (const auto& run : one["benchmarks"]) runs_.push_back(run);
+        return true;
     }
 
     const Arguments& a_;
