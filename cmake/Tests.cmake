@@ -11,7 +11,8 @@ if(support)
     add_library(connectivity_test_support STATIC ${support})
     connectivity_target(connectivity_test_support)
     target_include_directories(connectivity_test_support PUBLIC "${PROJECT_SOURCE_DIR}/tests")
-    target_link_libraries(connectivity_test_support PUBLIC connectivity_static GTest::gtest)
+    target_link_libraries(connectivity_test_support PUBLIC connectivity_static GTest::gtest
+        PRIVATE conformance_scenes)
     if(CONNECTIVITY_PCH)
         target_precompile_headers(connectivity_test_support PRIVATE
             <Kokkos_Core.hpp> <gtest/gtest.h>)

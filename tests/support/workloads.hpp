@@ -3,11 +3,7 @@
 /// The standard workloads W1-W7 of neighbour search: the same points on every machine, with known
 /// pair counts; and the same clouds at any other size, density kept.
 ///
-/// W1 jittered lattice, W2 the same at 1e5 nodes, W3 Plummer sphere with radii that follow density
-/// (65x), W4 2D lattice, W5 thin shell in a huge box, W6 tank with scattered spray, W7 uniform with
-/// 1 % of radii ten times larger. At other sizes lattice sides, W5's mid radius and W7's box are
-/// scaled; lattices have the nearest number of nodes that fills their sides. Cost: about 0.2 us
-/// and 100 bytes a node.
+/// What they are: conformance/workloads.h.
 
 #include <string>
 #include <vector>
