@@ -68,6 +68,7 @@ public:
         if (shape.size() != 1)
             throw Error(Status::format, fmt::format("{} has shape {}, must be [n]",
                                                     step_.where("x"), hdf5::text_of(shape)));
+        check_positions(step_, "x", shape);
         info_.lists.push_back(
             {list_name, shape[0], shape[0], step_.has_dataset("h"), step_.has_dataset("m")});
     }

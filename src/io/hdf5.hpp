@@ -80,7 +80,8 @@ public:
 
     /// Throws Error{format} if there is no such dataset or it does not hold numbers.
     Shape shape(const std::string& name) const;
-    /// Also checks the shape: Error{format}. `integer`: only whole numbers will do.
+    /// Also checks the shape, and that the data are there: Error{format}. `integer`: only whole
+    /// numbers will do.
     void require(const std::string& name, const Shape& expected, bool integer = false) const;
 
     /// Reads a dataset of which shape()[0] = n; of a two-dimensional one the first `columns`
@@ -134,6 +135,7 @@ public:
 private:
     Group() = default;
     Handle dataset(const std::string& name) const;
+    void require_data(const std::string& name, const Shape& shape) const;
     [[noreturn]] void fail(Status status, const std::string& name, const std::string& what) const;
     [[noreturn]] void fail_io(const std::string& name, const std::string& what) const;
     void read_raw(const std::string&, hid_t type, void* out, Offset n, Offset columns) const;

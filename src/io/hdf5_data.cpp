@@ -2,6 +2,8 @@
 // Datasets: shapes are checked before anything is read, numbers are converted by HDF5.
 #include "io/hdf5.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace connectivity::hdf5 {
@@ -27,11 +29,37 @@ Shape Group::shape(const std::string& name) const {
     return {extents.begin(), extents.end()};
 }
 
+/// HDF5 reads what was never written as zeros, as many as the dataset claims to hold: wrong, and
+/// more than any memory if the claim is.
+void Group::require_data(const std::string& name, const Shape& shape) const {
+    const Handle data = dataset(name);
+    const Handle list(H5Dget_create_plist(data), H5Pclose);
+    const H5D_layout_t layout = H5Pget_layout(list);
+    double blocks = 1;  // chunks, or the one block, that the shape takes
+    std::vector<hsize_t> chunk(shape.size(), 1);
+    if (layout == H5D_CHUNKED) H5Pget_chunk(list, static_cast<int>(chunk.size()), chunk.data());
+    for (std::size_t d = 0; d < shape.size(); ++d)
+        blocks *= layout == H5D_CHUNKED
+                      ? std::ceil(static_cast<double>(shape[d]) / static_cast<double>(chunk[d]))
+                      : (shape[d] > 0 ? 1 : 0);
+    hsize_t found = 1;
+    if (layout == H5D_CHUNKED) {
+        const Handle space(H5Dget_space(data), H5Sclose);
+        if (H5Dget_num_chunks(data, space, &found) < 0) fail_io(name, "cannot read");
+    } else if (layout == H5D_CONTIGUOUS && H5Pget_external_count(list) == 0) {
+        found = H5Dget_storage_size(data) > 0 ? 1 : 0;
+    }
+    if (static_cast<double>(found) < blocks)
+        fail(Status::format, name,
+             fmt::format("has shape {}, but not all of its data were written", text_of(shape)));
+}
+
 void Group::require(const std::string& name, const Shape& expected, bool integer) const {
     const Shape found = shape(name);
     if (found != expected)
         fail(Status::format, name,
              fmt::format("has shape {}, must be {}", text_of(found), text_of(expected)));
+    require_data(name, found);
     const Handle type(H5Dget_type(dataset(name)), H5Tclose);
     if (integer && H5Tget_class(type) != H5T_INTEGER)
         fail(Status::format, name, "does not hold whole numbers");

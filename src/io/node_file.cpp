@@ -59,6 +59,7 @@ ListInfo NodeFile::read_entry(const std::string& name) const {
     if (shape.size() != 2 || shape[1] != info_.dim)
         fail(fmt::format("{} has shape {}, must be [n, {}]", group.where("positions"),
                          hdf5::text_of(shape), info_.dim));
+    check_positions(group, "positions", shape);
     if (group.has_dataset("h") == group.has_dataset("H"))
         fail(fmt::format("{} has {}, must have exactly one of h and H", group.where(),
                          group.has_dataset("h") ? "both h and H" : "neither h nor H"));
@@ -124,8 +125,8 @@ ListData NodeFile::read(const std::string& list, const FieldRequest& fields) {
             return NodeList::with_h(list, info_.dim, entry.n_internal, positions,
                                     read_field(group, "h", n), extents_[k]);
         const Offset width = n_symmetric(info_.dim);
-        auto H = allocate<double>("io/H", n * width);
         group.require("H", {n, width});
+        auto H = allocate<double>("io/H", n * width);
         group.read("H", H.data(), n, width);
         return NodeList::with_H(list, info_.dim, entry.n_internal, positions, H, extents_[k]);
     };

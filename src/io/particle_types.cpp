@@ -202,6 +202,7 @@ void ParticleTypes::read_contents() {
                 throw Error(Status::format,
                             fmt::format("{} has shape {}, must be [n, 3]",
                                         group.where("Coordinates"), hdf5::text_of(shape)));
+            check_positions(group, "Coordinates", shape);
             list.n = list.n_internal = shape[0];
         } else if (!is_empty_by_header(name)) {
             throw Error(Status::format, group.where() + " has no Coordinates");

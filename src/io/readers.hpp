@@ -25,6 +25,10 @@ std::unique_ptr<SnapshotReader> open_node_file(hdf5::Group root, SnapshotInfo in
 /// Position of a list in info.lists. Throws Error{argument} with the names there are.
 std::size_t find_list(const SnapshotInfo& info, const std::string& name);
 
+/// Checks before anything is allocated that a file can hold as many nodes as the dataset of their
+/// positions claims. Throws Error: too_many (slots have 31 bits), format (its data are not there).
+void check_positions(const hdf5::Group& group, const std::string& name, const hdf5::Shape& shape);
+
 /// Reads a field of n values as double.
 ConstView<double> read_field(const hdf5::Group& group, const std::string& name, Offset n);
 

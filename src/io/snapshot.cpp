@@ -80,6 +80,14 @@ std::size_t find_list(const SnapshotInfo& info, const std::string& name) {
     return static_cast<std::size_t>(at - names.begin());
 }
 
+void check_positions(const hdf5::Group& group, const std::string& name, const hdf5::Shape& shape) {
+    constexpr Offset most = std::numeric_limits<Slot>::max();
+    if (shape[0] > most)
+        throw Error(Status::too_many, fmt::format("{} has {} nodes, at most {} fit",
+                                                  group.where(name), shape[0], most));
+    group.require(name, shape);
+}
+
 ConstView<double> read_field(const hdf5::Group& group, const std::string& name, Offset n) {
     group.require(name, {n});
     auto values = allocate<double>("io/" + name, n);

@@ -95,6 +95,31 @@ TEST(BadFile, step_asked_of_a_file_without_steps) {
                  [&] { open_snapshot(folder / "a.h5", options); });
 }
 
+TEST(BadFile, more_nodes_than_slots_without_data) {
+    const TemporaryFolder folder;
+    PlainFile::create(folder / "bad.h5")
+        .unwritten("PartType0/Coordinates", {100000000000000000, 3});
+    expect_error(Status::too_many, {"bad.h5", "Coordinates", "100000000000000000"},
+                 [&] { read_all(folder / "bad.h5"); });
+}
+
+TEST(BadFile, positions_that_were_never_written) {
+    expect_bad({"Coordinates", "[2000000000, 3]", "not all of its data"}, [](PlainFile& file) {
+        file.unwritten("PartType0/Coordinates", {2000000000, 3});
+    });
+    expect_bad({"node_lists/a/positions", "not all of its data"}, [](PlainFile& file) {
+        file.attribute("/", "dim", 1).attribute("/", "kernel_extent", 2.0);
+        file.unwritten("node_lists/a/positions", {2000000000, 1}, {1000, 1});
+    });
+}
+
+TEST(BadFile, a_field_of_which_a_chunk_is_missing) {
+    expect_bad({"SmoothingLength", "[5]", "not all of its data"}, [](PlainFile& file) {
+        file.data<float>("PartType0/Coordinates", std::vector<float>(15, 1), {5, 3})
+            .unwritten("PartType0/SmoothingLength", {5}, {2}, 4);
+    });
+}
+
 TEST(BadGadget, no_coordinates) {
     expect_bad({"PartType0", "Coordinates"},
                [](PlainFile& file) { file.data<float>("PartType0/SmoothingLength", {1}); });

@@ -112,6 +112,29 @@ public:
         return *this;
     }
 
+    /// Numbers without their values, in chunks if told; in one dimension the first n are written.
+    PlainFile& unwritten(const std::string& name, const Extents& extents, const Extents& chunk = {},
+                         hsize_t n = 0) {
+        const hid_t space = good(H5Screate_simple(static_cast<int>(extents.size()), extents.data(),
+                                                  nullptr)),
+                    list = H5Pcreate(H5P_DATASET_CREATE);
+        if (!chunk.empty()) H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data());
+        const hid_t set = good(H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space,
+                                          make_parents_, list, H5P_DEFAULT));
+        if (n > 0) {
+            const hsize_t first = 0;
+            const std::vector<double> values(n, 1.0);
+            const hid_t memory = H5Screate_simple(1, &n, nullptr);
+            good(H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &n, nullptr));
+            good(H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()));
+            H5Sclose(memory);
+        }
+        H5Dclose(set);
+        H5Pclose(list);
+        H5Sclose(space);
+        return *this;
+    }
+
     /// One-dimensional attribute of a group; the group is made if it is not there.
     template <class T>
     PlainFile& attribute(const std::string& where, const std::string& name,
