@@ -110,9 +110,10 @@ typedef struct conn_estimate {
     int64_t n_pairs;    /**< 0 if pairs were not asked for */
     int64_t bytes;      /**< of rows, pairs and orders, in a map without spare memory; overlap and
                              intersections are not in it */
-    int64_t peak_bytes; /**< bytes, and what the search holds beside them: nodes, order, 16 bytes
-                             a node and every found row until all are counted, in memory that
-                             may be half empty; rows once more where lists are made from them */
+    int64_t peak_bytes; /**< bytes, and at most about what the search holds beside them: nodes,
+                             order, 16 bytes a node, 4 MiB a thread and every found row until all
+                             are counted, in memory that may be two thirds empty; rows once more
+                             where lists are made from them */
     int64_t n_sampled;  /**< nodes whose neighbours were counted */
     double relative_error; /**< standard error of n_entries and n_pairs over their values; 0: they
                                 are exact */
@@ -120,9 +121,9 @@ typedef struct conn_estimate {
 #define CONN_ESTIMATE_INIT \
     { sizeof(conn_estimate), 0, 0, 0, 0, 0, 0 }
 /** What a rebuild with these lists would make, while nothing is stored and the map stays as it is.
- * Exact up to 20000 nodes with a row; beyond from a sample of about 4096, always the same ones,
- * which takes 10 to 30 % of the time of a rebuild. Fails as conn_map_rebuild does, but for the
- * budget, which does not count here. */
+ * Exact up to 20000 nodes with a row; beyond from a sample of about 4096, always the same ones.
+ * Most of its time goes into an order of all nodes: about a third of that of a first rebuild. Fails
+ * as conn_map_rebuild does, but for the budget, which does not count here. */
 CONN_API conn_status conn_map_estimate(const conn_map* map, conn_nodes* const* lists,
                                        int32_t n_lists, conn_estimate* estimate);
 /** Whether the lists of the last rebuild may miss a neighbour among these nodes, which may have

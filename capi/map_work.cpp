@@ -41,20 +41,16 @@ Offset held_bytes(const conn_map& map) {
 }
 
 Offset pinned_bytes(const conn_map& map) {
-    std::set<const void*> counted;  // arrays of the present lists, and those that several pins hold
+    std::set<const void*> counted;  // several views may hold an array
     Offset bytes = 0;
-    const auto walk = [&](bool current) {
-        for (const ViewPin* const pin : ViewPin::live()) {
-            const bool is_current = map.map && pin->generation == map.map->generation();
-            if (pin->map_number != map.number || is_current != current) continue;
-            pin->for_each_array([&](const void* data, std::size_t size) {
-                if (data != nullptr && counted.insert(data).second && !current)
-                    bytes += static_cast<Offset>(size);
-            });
-        }
-    };
-    walk(true);
-    walk(false);
+    for (const ViewPin* const pin : ViewPin::live()) {
+        // Views of the present generation hold the map's own arrays.
+        const bool is_current = map.map && pin->generation == map.map->generation();
+        if (pin->map_number != map.number || is_current) continue;
+        pin->for_each_array([&](const void* data, std::size_t size) {
+            if (data != nullptr && counted.insert(data).second) bytes += static_cast<Offset>(size);
+        });
+    }
     return bytes;
 }
 

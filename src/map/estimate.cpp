@@ -150,10 +150,10 @@ Offset list_bytes(const MapEstimate& found, const MapOptions& options, const Slo
 /// What a search holds beside the lists: `held` are nodes and order, as a traversal left them.
 Offset search_bytes(Offset held, const RowMoments& all, const Sample& sample,
                     const MapOptions& options) {
-    constexpr Offset record = 16, worker = Offset{1} << 20;
+    constexpr Offset record = 16, worker = Offset{4} << 20, spare = 3;
     const Offset n_found =
         options.rows || options.is_derived() ? all.entries.total(sample) : all.pairs.total(sample);
-    const Offset rows = 2 * Offset{sizeof(Slot)} * n_found + n_workers() * worker,
+    const Offset rows = spare * Offset{sizeof(Slot)} * n_found + n_workers() * worker,
                  by_list =
                      sample.layout.n_lists() > 1
                          ? Offset{sizeof(Slot)} * sample.layout.n_rows() * sample.layout.n_lists()

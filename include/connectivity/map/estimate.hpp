@@ -19,8 +19,9 @@ struct MapEstimate {
     Offset n_pairs = 0;    ///< 0 if pairs are not asked for
     /// Of rows, pairs, key order and spatial order in a new map; without overlap and intersections.
     Offset bytes = 0;
-    /// bytes, and what the search holds beside them: nodes and their order, a record of every slot,
-    /// and each found row until all are counted, in memory that grows by doubling.
+    /// bytes, and at most about what the search holds beside them: nodes and their order, a record
+    /// of every slot, scratch of the workers, and each found row until all are counted, in memory
+    /// that grows by doubling for each worker and may be two thirds empty.
     Offset peak_bytes = 0;
     Offset n_sampled = 0;       ///< nodes whose neighbours were counted
     double relative_error = 0;  ///< standard error of the numbers over them; 0: they are exact
