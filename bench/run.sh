@@ -11,11 +11,11 @@
 # bench/yardstick.hpp.
 #
 # Peers take part that were found when the build was configured: nanoflann, TreeNSearch, ArborX,
-# vesin, cornerstone-octree, Cabana. Each is pointed to by <package>_ROOT, the prefix that it was
-# installed into (TreeNSearch, ArborX, vesin, Cabana) or its source folder's include (cornerstone):
-#   cmake -B build -DArborX_ROOT=$HOME/arborx -DKokkos_ROOT=$HOME/kokkos ...
+# vesin, cornerstone (cornerstone-octree), Cabana. <package>_ROOT points to the prefix that it was
+# installed into, for cornerstone to its source folder:
+#   cmake -B build -DKokkos_ROOT=$HOME/kokkos -DArborX_ROOT=$HOME/arborx ...
 # ArborX and Cabana have to be built with the Kokkos of this build, 4.5 or later. What each of them
-# can do and is left out of stands in bench/peers/<name>.cpp.
+# delivers, and what it is left out of, stands in bench/peers/<name>.cpp.
 set -eu
 
 here=$(cd "$(dirname "$0")" && pwd)
