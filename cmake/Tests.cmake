@@ -39,7 +39,7 @@ if(CONNECTIVITY_SANITIZERS STREQUAL thread)
             "without it ThreadSanitizer takes every barrier of OpenMP for a race")
     endif()
     list(APPEND CONNECTIVITY_TEST_ENVIRONMENT "OMP_TOOL_LIBRARIES=${CONNECTIVITY_ARCHER}"
-        "TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=0:exitcode=66")
+        "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/tsan.supp:print_suppressions=0:ignore_noninstrumented_modules=1")
 endif()
 
 # connectivity_test(<folder> LABEL <label>): one executable from the folder's *_test.cpp.

@@ -5,6 +5,7 @@
 # same things by hand; nothing else here is Debian's.
 #   sh cmake/dependencies.sh           for the libraries, the program, unit tests and benchmarks
 #   sh cmake/dependencies.sh --tests   also for hosts in other languages, the reference, ABI checks
+#   sh cmake/dependencies.sh --clang   also clang with its fuzzer, sanitizers and OpenMP
 set -eu
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -19,10 +20,12 @@ packages="
 # First line: compiler and build. Then small dense algebra, the program, the tests and the
 # benchmarks, and what kokkos.sh downloads with.
 
+cxx=
 case ${1:-} in
 --tests) packages="$packages gfortran pkg-config python3-numpy doxygen abigail-tools" ;;
+--clang) packages="$packages clang libclang-rt-dev libomp-dev" cxx=clang++ ;;
 '') ;;
-*) echo "unknown argument $1; known: --tests" >&2; exit 2 ;;
+*) echo "unknown argument $1; known: --tests, --clang" >&2; exit 2 ;;
 esac
 
 as_root() {
@@ -76,5 +79,5 @@ else
 fi
 
 say "looking for Kokkos"
-kokkos=$(sh "$here/kokkos.sh")
+kokkos=$(sh "$here/kokkos.sh" ${cxx:+--cxx "$cxx"})
 say "Kokkos: $kokkos"

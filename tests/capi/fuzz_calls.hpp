@@ -43,6 +43,18 @@ public:
         }
     }
 
+protected:
+    /// Good nodes for all lists, and lists of the first.
+    void begin_well() {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int n = 8 - 2 * static_cast<int>(k);
+            const conn_array x = conn_array_matrix(memory_.data(), n, 1 + static_cast<int>(k)),
+                             h = conn_array_vector(memory_.data() + 32, n);
+            EXPECT_TRUE(ok(conn_nodes_set_h(lists_[k], n, &x, 1, &h)));
+        }
+        EXPECT_TRUE(ok(conn_map_rebuild(map_.handle, lists_.data(), 1)));
+    }
+
 private:
     /// Good nodes for one of the live lists, so that the calls behind have something to do.
     void set_well() {

@@ -174,7 +174,7 @@ TEST(HostThreads, errors_of_one_do_not_reach_the_others) {
 }
 
 TEST(HostThreads, callbacks_of_several_traversals_at_once_get_every_row_once) {
-    const Context context(4);
+    const Context context;
     in_threads(2, [&](int t) {
         const NodeSet set = random_nodes(3, 1500, static_cast<std::uint64_t>(t));
         const Nodes nodes(context, 3, set);
