@@ -17,7 +17,6 @@
 
 namespace connectivity::test {
 
-/// Shapes and a type before they go into a file.
 using Extents = std::vector<hsize_t>;
 
 class Hdf5Maker {
