@@ -29,7 +29,8 @@ for argument in "$@"; do
         n=${argument#--fuzz}
         n=${n#=}
         build=build-fuzz dependencies=--clang targets="fuzz_capi fuzz_files" select="-L fuzz"
-        options="-DCONNECTIVITY_FUZZ=ON -DCONNECTIVITY_FUZZ_INPUTS=${n:-2000} $clang" ;;
+        options="-DCONNECTIVITY_FUZZ=ON -DCONNECTIVITY_FUZZ_INPUTS=${n:-2000} $clang"
+        options="$options -DCONNECTIVITY_PCH=ON" ;;
     *)
         echo "unknown argument $argument; known: --all, --sanitize, --sanitize=thread, --fuzz," \
             "--fuzz=N" >&2
