@@ -8,6 +8,8 @@
 
 #include <capi/fuzz_calls.hpp>
 
+#include "leaks.hpp"
+
 namespace connectivity::test {
 namespace {
 
@@ -16,7 +18,8 @@ struct Counts {
               bounded = 0;
 } counts;
 
-void print_counts() {
+void at_end() {
+    check_for_leaks();
     std::fprintf(stderr,
                  "fuzz_capi: %lld inputs, %lld calls; of these got through: %lld rebuilds, %lld "
                  "views, %lld traversals, %lld patches, %lld sums, %lld boundaries\n",
@@ -56,7 +59,7 @@ void check_that_it_still_works() {
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
     ::testing::GTEST_FLAG(break_on_failure) = true;  // libFuzzer keeps the input of an abort
-    std::atexit(connectivity::test::print_counts);
+    std::atexit(connectivity::test::at_end);
     return 0;
 }
 
@@ -64,5 +67,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace connectivity::test;
     Calls(std::span(data, size)).make_all();
     if (++counts.inputs % 64 == 0) check_that_it_still_works();
+    if (counts.inputs % 512 == 0) check_for_leaks();
     return 0;
 }

@@ -17,6 +17,7 @@
 #include <connectivity/map/connectivity_map.hpp>
 
 #include "hdf5_maker.hpp"
+#include "leaks.hpp"
 
 namespace connectivity::test {
 namespace {
@@ -34,6 +35,7 @@ std::string path() {
 }
 
 void at_end() {
+    check_for_leaks();
     std::error_code ignored;
     std::filesystem::remove(path(), ignored);
     std::fprintf(stderr,
@@ -134,6 +136,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto before = open_identifiers();
     read(options, random);
     EXPECT_EQ(open_identifiers(), before);
-    ++counts.files;
+    if (++counts.files % 512 == 0) check_for_leaks();
     return 0;
 }
