@@ -132,17 +132,21 @@ void OverlapBlock::order_universe(const OverlapSource& input) {
     }
 }
 
-void OverlapBlock::write_witness_bits(long stride) {
-    ensure_capacity(bits_, "map/overlap/bits", static_cast<Offset>(witnesses_.size()) * stride);
+/// [witnesses * stride], until the next block. Memory only grows: giving a View back inside a
+/// parallel loop waits for that loop in Kokkos 4.
+const std::uint64_t* OverlapBlock::witness_bits(long stride) {
+    bits_.reset();
+    std::uint64_t* const bits = bits_.take(static_cast<Offset>(witnesses_.size()) * stride);
     const int* seen = seen_.data();
     for (std::size_t w = 0; w < witnesses_.size(); ++w) {
-        std::uint64_t* const row = bits_.data() + static_cast<Offset>(w) * stride;
+        std::uint64_t* const row = bits + static_cast<Offset>(w) * stride;
         std::memset(row, 0, static_cast<std::size_t>(stride) * sizeof *row);
         for (const int* const end = seen_.data() + seen_end_[w]; seen < end; ++seen) {
             const int place = rank_[static_cast<std::size_t>(*seen)];
             row[place / 64] |= std::uint64_t{1} << place % 64;
         }
     }
+    return bits;
 }
 
 /// Room in the arena, with members and universe already there.
@@ -179,7 +183,7 @@ OverlapRows* OverlapBlock::store(const OverlapSource& input, WordArena& arena, S
     order_universe(input);
     OverlapRows* const rows = take(arena);
     const bool single = rows->n_members == 1;
-    if (!single) write_witness_bits(rows->stride);
+    const std::uint64_t* const seen = single ? nullptr : witness_bits(rows->stride);
     const auto unite = bit_row_kernels().unite;
     const int* use = use_.data();
     for (int m = 0; m < rows->n_members; ++m) {
@@ -188,7 +192,7 @@ OverlapRows* OverlapBlock::store(const OverlapSource& input, WordArena& arena, S
         if (single)
             std::memset(bits, 0xff, static_cast<std::size_t>(rows->stride) * sizeof *bits);
         else
-            unite(bits_.data(), rows->stride, use, static_cast<int>(end - use), bits);
+            unite(seen, rows->stride, use, static_cast<int>(end - use), bits);
         use = end;
         const int own = rank_[static_cast<std::size_t>(own_[static_cast<std::size_t>(m)])];
         bits[own / 64] &= ~(std::uint64_t{1} << own % 64);
@@ -208,7 +212,7 @@ Offset OverlapBlock::bytes() const {
     const auto held = [](const auto&... v) {
         return (static_cast<Offset>(v.capacity() * sizeof(v[0])) + ...);
     };
-    return numbers_.bytes() + static_cast<Offset>(bits_.size() * sizeof(std::uint64_t)) +
+    return numbers_.bytes() + bits_.bytes() +
            held(members_, witnesses_, own_, witness_of_, use_, use_end_, seen_, seen_end_, keys_,
                 spare_keys_, digits_, rank_, universe_, list_end_);
 }

@@ -72,7 +72,7 @@ private:
     int witness(const OverlapSource& input, Slot place);
     void read_witnesses(const OverlapSource& input);
     void order_universe(const OverlapSource& input);
-    void write_witness_bits(long stride);
+    const std::uint64_t* witness_bits(long stride);
     OverlapRows* take(WordArena& arena) const;
     void count(const OverlapRows& rows, int member, Slot* counts) const;
 
@@ -90,8 +90,8 @@ private:
     std::vector<Slot> universe_;  // slots
     std::vector<int> list_end_;   // in the universe
     int n_universe_ = 0;
-    View<std::uint64_t> bits_;  // [witnesses * stride]
-    bool alone_ = false;        // one member that sees too many for bits
+    WordArena bits_;      // of the witnesses
+    bool alone_ = false;  // one member that sees too many for bits
 };
 
 }  // namespace detail

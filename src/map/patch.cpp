@@ -144,7 +144,7 @@ void Patch::turn_half_rows(const Renumbering& now, const Csr& old) {
         HostExec().fence();
     };
     const auto cursor = allocate_zeroed<Offset>("map/patch/cursor", n);
-    for_pairs([=](Slot a, Slot, Offset) { Kokkos::atomic_increment(&cursor(a)); });
+    for_pairs([=](Slot a, Slot, Offset) { Kokkos::atomic_fetch_add(&cursor(a), Offset{1}); });
     half_rows_.prepare(n, [=](Offset a) { return cursor(a); });
     half_rows_.reserve();
     const Offset n_pairs = half_rows_.n_prepared();
