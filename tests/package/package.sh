@@ -129,12 +129,15 @@ examples)
     "$CMAKE" -S "$PREFIX/share/doc/connectivity/examples" -B "$dir/build" -G "$GENERATOR" \
         -DCMAKE_PREFIX_PATH="$PREFIX" > "$dir/log" || fail "$(cat "$dir/log")"
     "$CMAKE" --build "$dir/build"
-    for example in "$dir"/build/*_c "$dir"/build/*_fortran; do
-        [ ! -x "$example" ] || "$example"
-    done
+    set -- "$dir/build/neighbours_c"
+    [ -z "$FC" ] || set -- "$@" "$dir/build/neighbours_fortran"
+    sh "$ROOT/tests/fortran/examples.sh" \
+        "$PREFIX/share/doc/connectivity/examples/python/neighbours.py" \
+        "$PREFIX/$LIBDIR/libconnectivity.so.${VERSION%%.*}" "$PYTHON" "$@"
     ;;
 python_by_dlopen)
     expect "$pairs_text" "$PYTHON" "$SOURCE/python/pairs.py" "$PREFIX/$LIBDIR/libconnectivity.so.${VERSION%%.*}"
+    "$PYTHON" "$SOURCE/python/structs.py" "$PREFIX/include" "$PREFIX/$LIBDIR/libconnectivity.so"
     ;;
 moved)
     # A copy elsewhere works, and nothing in it names the place it was made for.

@@ -1,60 +1,87 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Nodes in, rebuild, loop over pairs, move the nodes, rebuild: what a host does in every step.
- * From the root of a built clone:
- * cc capi/examples/c/neighbours.c -Icapi -Iinclude -Lbuild -lconnectivity -Wl,-rpath,$PWD/build */
+ * Nodes in, rebuild, loop over pairs, values of pairs summed at the nodes, move, rebuild, patch: the
+ * same digits as ../fortran/neighbours.f90 and ../python/neighbours.py.
+ * cc neighbours.c $(pkg-config --cflags --libs connectivity) -lm */
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include <connectivity.h>
 
-enum { side = 10, n = side * side * side };
+enum { side = 10, n = side * side * side, left = n - side * side };
 
-static double x[n][3], h[n];
-static int neighbours[n];
+static double x[n][3], h[n], density[n], push[n][3];
 
-static int check(conn_status status) {
-    if (status != CONN_OK) fprintf(stderr, "%s\n", conn_last_error());
-    return status == CONN_OK;
+static void check(conn_status status) {
+    if (status == CONN_OK) return;
+    fprintf(stderr, "%s: %s\n", conn_status_text(status), conn_last_error());
+    exit(1);
 }
 
-/* Neighbours of each node, counted over the pairs: each pair is there once. */
-static int count_neighbours(conn_map* map) {
+static void report(const char* what, conn_map* map, const conn_pair_field* force) {
+    conn_map_info info = CONN_MAP_INFO_INIT;
+    const double* f = push[left - 1];
+    check(conn_map_get_info(map, &info));
+    check(conn_pair_field_sum(force, map, CONN_ANTISYMMETRIC, CONN_SUM_DETERMINISTIC, push[0], 3 * n));
+    printf("%s: %lld pairs, force%24.16E%24.16E%24.16E\n", what, (long long)info.n_pairs, f[0], f[1],
+           f[2]);
+}
+
+static void interact(conn_map* map, conn_pair_field* force) {
     conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
-    if (!check(conn_map_pairs_acquire(map, CONN_SPACE_HOST, 0, &pairs))) return 0;
-    for (int i = 0; i < n; ++i) neighbours[i] = 0;
-    for (int64_t i = 0; i < pairs.n_slots; ++i)
-        for (int64_t k = pairs.offsets[i]; k < pairs.offsets[i + 1]; ++k) {
-            ++neighbours[i];
-            ++neighbours[pairs.j[k]];
-        }
-    printf("generation %llu: %lld pairs, node 0 has %d neighbours\n",
-           (unsigned long long)pairs.generation, (long long)pairs.n_pairs, neighbours[0]);
-    return check(conn_map_pairs_release(&pairs));
+    double* f = NULL;
+    check(conn_map_pairs_acquire(map, CONN_SPACE_HOST, CONN_PAIRS_EXPAND, &pairs));
+    check(conn_pair_field_data(force, map, &f, NULL, NULL));
+    /* A node sees itself; Wendland C2 over its value at distance 0. */
+    for (int a = 0; a < n; ++a) density[a] = 1;
+    for (int64_t k = 0; k < pairs.n_pairs; ++k) { /* each pair once */
+        const double *a = x[pairs.i[k]], *b = x[pairs.j[k]];
+        const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+        const double q = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / 1.5, t = (1 - q) * (1 - q);
+        density[pairs.i[k]] += t * t * (1 + 4 * q);
+        density[pairs.j[k]] += t * t * (1 + 4 * q);
+        for (int axis = 0; axis < 3; ++axis) f[3 * k + axis] = t * d[axis];
+    }
+    check(conn_map_pairs_release(&pairs));
+    printf("density%24.16E%24.16E\n", density[0], density[n / 2 - 1]);
+    report("rebuilt", map, force);
 }
 
 int main(void) {
     conn_context* context = NULL;
     conn_nodes* gas = NULL;
     conn_map* map = NULL;
+    conn_pair_field* force = NULL;
+    int32_t keep[n], old2new[n];
     const conn_array positions = conn_array_matrix(x[0], n, 3), lengths = conn_array_vector(h, n);
 
-    for (int i = 0; i < n; ++i) { /* a unit lattice; supports reach 2 h = 1.5 */
-        x[i][0] = i % side;
-        x[i][1] = i / side % side;
-        x[i][2] = i / side / side;
-        h[i] = 0.75;
+    for (int a = 0; a < n; ++a) { /* a unit lattice; supports reach 2 h = 1.5 */
+        x[a][0] = a % side, x[a][1] = a / side % side, x[a][2] = a / side / side;
+        h[a] = 0.75;
     }
-    int ok = check(conn_context_create(NULL, &context)) &&
-             check(conn_nodes_create(context, "gas", 3, 2.0, &gas)) &&
-             check(conn_map_create(context, NULL, &map));
-    for (int step = 0; ok && step < 2; ++step) {
-        conn_nodes* lists[] = {gas};
-        ok = check(conn_nodes_set_h(gas, n, &positions, 1, &lengths)) &&
-             check(conn_map_rebuild(map, lists, 1)) && count_neighbours(map);
-        for (int i = 0; i < n; ++i) x[i][0] *= 1.25; /* the next step is stretched along x */
-    }
+    check(conn_context_create(NULL, &context));
+    check(conn_nodes_create(context, "gas", 3, 2.0, &gas));
+    check(conn_map_create(context, NULL, &map));
+    check(conn_nodes_set_h(gas, n, &positions, 1, &lengths));
+    check(conn_map_rebuild(map, &gas, 1));
+    check(conn_pair_field_create(map, 3, &force));
+    interact(map, force);
+
+    /* Stretched along x, squeezed along y. */
+    for (int a = 0; a < n; ++a) x[a][0] *= 1.25, x[a][1] *= 0.9;
+    check(conn_nodes_set_h(gas, n, &positions, 1, &lengths));
+    check(conn_map_rebuild(map, &gas, 1));
+    check(conn_pair_field_reset(force, map));
+    interact(map, force);
+
+    /* The last layer goes, the other nodes keep their numbers. */
+    for (int a = 0; a < n; ++a) keep[a] = a < left, old2new[a] = a;
+    check(conn_map_patch(map, keep, old2new, n, &force, 1));
+    report("patched", map, force);
+    conn_pair_field_destroy(&force);
     conn_map_destroy(&map);
     conn_nodes_destroy(&gas);
     conn_context_destroy(&context);
-    return ok ? 0 : 1;
+    return 0;
 }
