@@ -1,20 +1,23 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! The C interface of connectivity.h, connectivity_boundary.h and connectivity_query.h for Fortran 2008.
+! The C interface for Fortran 2008: connectivity.h, and the experimental connectivity_boundary.h and
+! connectivity_query.h.
 !
 ! Every function of the headers is here under its name, and means what the header says, with the
-! types of Fortran: an array brings its length, texts are character strings, what may be NULL in C is
-! optional (and therefore last). Functions return a status, CONN_OK or an error of which
-! conn_error_text(status) says what, where, which value and what is allowed; on an error all
-! arguments keep what they had. Shorter ways are the generic names conn_set_h, conn_set_tensor,
-! conn_rebuild, conn_acquire, conn_release, conn_destroy and conn_*_pointers.
+! types of Fortran: an array brings its length, texts are character strings, truth is logical, what
+! may be NULL in C is optional (and therefore last). Functions return a status, CONN_OK or an error
+! of which conn_error_text(status) says what, where, which value and what is allowed; on an error
+! all arguments keep what they had. Shorter ways are the generic names conn_set_h, conn_set_tensor,
+! conn_rebuild, conn_acquire, conn_release, conn_destroy, and conn_*_pointers.
 !
 ! Handles (conn_context, conn_nodes, conn_map, ...) are null before they are created; a copy is the
 ! same object. Structs have the members and defaults of C.
 !
 ! Arrays of the host are taken where they are, also sections with a stride: x(3, n) by
 ! conn_array_matrix, x(n, 3) by conn_array_planar, x(n) by conn_array_vector. Such a description
-! holds an address: what it describes must have the target attribute and be no expression. Arguments
-! with the attribute contiguous are copied by the compiler if they are sections with a stride.
+! holds an address: what it describes must have the target attribute and be no expression, nor a
+! component like particles%x, of which compilers make a copy: conn_array_strided is for these. The
+! generic names that take arrays themselves work with anything. Arguments with the attribute
+! contiguous are copied by the compiler if they are sections with a stride.
 !
 ! Numbers. With options%index_base = 1 nodes and slots count from 1, so that they index ordinary
 ! arrays x(:, 1:n); with 0, the default, arrays x(:, 0:n-1). Positions (offsets, rows, pairs, ranks,

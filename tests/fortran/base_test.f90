@@ -50,7 +50,7 @@ contains
         call expect(all(transfer(ours, [garbage]) == transfer(of_c, [garbage])), &
                     'default options of a map are byte for byte those of C')
         context_of_c = transfer(spread(garbage, 1, int(c_sizeof(context_ours))), context_of_c)
-        call expect_ok(conn_context_options_init(context_of_c), 'options of a context are initialised')
+        call expect_ok(conn_context_options_init(context_of_c), 'options of a context')
         call expect(all(transfer(context_ours, [garbage]) == transfer(context_of_c, [garbage])), &
                     'default options of a context are byte for byte those of C')
     end subroutine defaults_are_those_of_c

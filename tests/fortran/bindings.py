@@ -139,7 +139,7 @@ def part_text(capi, part, structs):
     header = f"connectivity_{part}.h"
     text = without_comments((capi / header).read_text())
     lines = ["! SPDX-License-Identifier: BSD-3-Clause",
-             f"! Made from {header} by tests/fortran/bindings.py; what the items mean is said there.",
+             f"! Made from {header} by tests/fortran/bindings.py; the header says what they mean.",
              ""]
     constants = list(enumerators(text))
     if part == "base":

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # The examples print the same bytes, and the numbers of pairs that a lattice of 10 nodes a side has.
-# Usage: examples.sh neighbours.py LIBRARY PYTHON PROGRAM...; PYTHON may be empty, and the script is
+# Usage: examples.sh neighbours.py LIBRARY PYTHON PROGRAM...; PYTHON may be none, and the script is
 # left out where neither it nor the python3 of the system has NumPy.
 set -eu
 script=$1 library=$2 python=$3
@@ -12,8 +12,8 @@ trap 'rm -rf "$dir"' EXIT
 for program in "$@"; do
     "$program" > "$dir/$(basename "$program")"
 done
-for interpreter in ${python:+"$python" /usr/bin/python3}; do
-    if "$interpreter" -c "import numpy" 2> /dev/null; then
+for interpreter in "$python" /usr/bin/python3; do
+    if [ "$python" != none ] && "$interpreter" -c "import numpy" 2> /dev/null; then
         "$interpreter" "$script" "$library" > "$dir/python"
         break
     fi

@@ -26,7 +26,7 @@ contains
         call expect_ok(conn_set_h(nodes, mine, 2.2_c_double), 'set')
         call expect_ok(conn_boundaries_create(context, 2, boundaries), 'boundaries')
         call expect_error(conn_boundaries_add(boundaries, CONN_BOUNDARY_REFLECTING, 'wall', &
-            reshape([0._c_double], [1, 1]), .true.), CONN_E_ARGUMENT, 'planes', 'a plane of one number')
+            reshape([0._c_double], [1, 1]), .true.), CONN_E_ARGUMENT, 'planes', 'one number')
         call expect_ok(conn_boundaries_add(boundaries, CONN_BOUNDARY_REFLECTING, 'wall', &
             reshape([0._c_double, 0._c_double, 2._c_double, 0._c_double], [2, 2]), .false.), 'wall')
         call expect_ok(conn_boundaries_update(boundaries, [nodes], CONN_GHOSTS_KEEP, map), 'update')
@@ -55,7 +55,8 @@ contains
         type(world) :: w
         type(conn_query) :: query
         type(conn_map_options) :: domain
-        real(c_double), parameter :: middle(3) = 0.5_c_double, half(3) = 0.25_c_double
+        real(c_double), parameter :: middle(3) = 0.5_c_double, half(3) = 0.25_c_double, &
+            normal(3) = [0._c_double, 3._c_double, 0._c_double]
         real(c_double) :: r, shift(3)
         integer(c_int32_t) :: slots(n_cloud), row(n_cloud)
         integer(c_int64_t) :: n, n_coarse
@@ -68,34 +69,35 @@ contains
         domain%index_base = 1
         call expect_ok(conn_query_update(query, [w%nodes], domain), 'update')
         do a = 1, n_cloud
-            call expect_ok(conn_query_neighbours(query, a, CONN_GATHER_SCATTER, n, slots), 'neighbours')
+            call expect_ok(conn_query_neighbours(query, a, CONN_GATHER_SCATTER, n, slots), 'of a')
             row(:count(w%near(:, a))) = pack([(k, k=1, n_cloud)], w%near(:, a))
             call expect(n == count(w%near(:, a)), 'as many neighbours')
             call expect(all(slots(:n) == row(:n)), 'the same neighbours')
         end do
         r = 0.5_c_double
         found = sum((w%x - spread(middle, 2, n_cloud))**2, 1) <= r**2
-        call expect_ok(conn_query_neighbours_at(query, middle, r/extent, CONN_GATHER, n, slots), 'at')
+        call expect_ok(conn_query_neighbours_at(query, middle, r/2, CONN_GATHER, n, slots), 'at')
         call expect(n == count(found), 'nodes in a ball')
         call expect_ok(conn_query_neighbours_at(query, middle, 0._c_double, CONN_GATHER, n, slots, &
             [extent/r, 0._c_double, 0._c_double, extent/r, 0._c_double, extent/r]), 'tensor')
         call expect(n == count(found), 'nodes in an ellipsoid')
-        call expect(conn_query_neighbours_at(query, middle(:2), r, CONN_GATHER, n, slots) /= CONN_OK, &
+        call expect(conn_query_neighbours_at(query, middle(:2), r, CONN_GATHER, n) /= CONN_OK, &
                     'a place with too few coordinates')
         call expect_ok(conn_query_near_box(query, half, middle, CONN_GATHER, n, slots), 'box')
         found = all(w%x >= 0.25_c_double .and. w%x <= 0.5_c_double, 1)
         call expect(n == count(found) .and. all(found(slots(:n))), 'nodes in a box')
-        call expect_ok(conn_query_near_plane(query, middle, [0._c_double, 3._c_double, 0._c_double], &
-                                             0.1_c_double, CONN_GATHER, n, slots), 'plane')
+        call expect_ok(conn_query_near_plane(query, middle, normal, 0.1_c_double, CONN_GATHER, n, &
+                                             slots), 'plane')
         found = abs(w%x(2, :) - 0.5_c_double) <= 0.1_c_double
         call expect(n == count(found) .and. all(found(slots(:n))), 'nodes near a plane')
-        call expect_ok(conn_query_candidates(query, 7, CONN_GATHER_SCATTER, CONN_CANDIDATES_COARSE, &
-                                             n_coarse), 'coarse')
-        call expect_ok(conn_query_candidates(query, 7, CONN_GATHER_SCATTER, CONN_CANDIDATES_REFINE, &
-                                             n, slots), 'refine')
+        call expect_ok(conn_query_candidates(query, 7, CONN_GATHER_SCATTER, &
+                                             CONN_CANDIDATES_COARSE, n_coarse), 'coarse')
+        call expect_ok(conn_query_candidates(query, 7, CONN_GATHER_SCATTER, &
+                                             CONN_CANDIDATES_REFINE, n, slots), 'refine')
         found = .false.
         found(slots(:n)) = .true.
-        call expect(n_coarse >= n .and. found(7) .and. all(found .or. .not. w%near(:, 7)), 'candidates')
+        call expect(n_coarse >= n .and. found(7) .and. all(found .or. .not. w%near(:, 7)), &
+                    'candidates')
         domain%periodic = 1
         domain%box_hi = 1
         call expect_ok(conn_query_update(query, [w%nodes], domain), 'update')

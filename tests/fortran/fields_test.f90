@@ -60,11 +60,12 @@ contains
         call make_world(w)
         call expect_ok(conn_map_pairs_copy(w%map, n), 'pairs')
         allocate (values(n), i(n), j(n))
-        call expect_ok(conn_map_set_coupling(w%map, [(1/real(k, c_double), k=1, int(n))]), 'an array')
+        values = [(1/real(k, c_double), k=1, int(n))]
+        call expect_ok(conn_map_set_coupling(w%map, values), 'an array')
         call expect_ok(conn_map_pairs_copy(w%map, n, coupling=values), 'copy')
         call expect(values(4) == 0.25_c_double, 'values of the array')
         scale = 0.001_c_double
-        call expect_ok(conn_map_set_coupling_function(w%map, scaled_sum, c_loc(scale)), 'a function')
+        call expect_ok(conn_map_set_coupling_function(w%map, scaled_sum, c_loc(scale)), 'function')
         call expect_ok(conn_map_pairs_copy(w%map, n, i, j, values), 'copy')
         call expect(all(values == scale*(i + j)), 'values of the function')
         call expect_error(conn_map_set_coupling(w%map, values(:3)), CONN_E_ARGUMENT, '3', 'too few')

@@ -191,7 +191,7 @@ contains
             call expect_ok(conn_map_common_neighbours(w%map, i(k), j(k), n, common), 'of a pair')
             call expect(all(common(:n) == slots(offsets(k):offsets(k + 1) - 1)), 'any two nodes')
         end do
-        call expect_ok(conn_map_common_neighbours(w%map, i(0), j(0), m, common, [w%nodes]), 'between')
+        call expect_ok(conn_map_common_neighbours(w%map, i(0), j(0), m, lists=[w%nodes]), 'between')
         call expect(m >= 2 .and. m <= offsets(1), 'fewer are between the two')
         call expect_ok(conn_release(view), 'release')
         call expect_ok(conn_release(pairs), 'release')

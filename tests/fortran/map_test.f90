@@ -76,7 +76,7 @@ contains
         integer(c_int8_t), target :: active(n_cloud), seen(4)
         type(conn_nodes) :: halves(2)
         logical :: near(n_cloud, n_cloud)
-        integer :: k
+        integer :: k, first
         call make_world(w)
         active = [(int(mod(k, 2), c_int8_t), k=1, n_cloud)]
         options%active = c_loc(active)
@@ -88,7 +88,8 @@ contains
         call expect_pairs(w%map, near, 0, 'active')
         do k = 1, 2
             call expect_ok(conn_nodes_create(w%context, 'half', 3, extent, halves(k)), 'half')
-            call expect_ok(conn_set_h(halves(k), w%x(:, 60*k - 59:60*k), w%h(60*k - 59:60*k)), 'half')
+            first = 60*k - 59
+            call expect_ok(conn_set_h(halves(k), w%x(:, first:60*k), w%h(first:60*k)), 'half')
         end do
         seen = [1_c_int8_t, 0_c_int8_t, 0_c_int8_t, 1_c_int8_t]
         options = conn_map_options(interactions=c_loc(seen), n_interactions=4)
@@ -117,8 +118,8 @@ contains
         ids = [(1000 - k, k=1, n_cloud)]
         owner = -1
         call expect_ok(conn_set_h(w%nodes, w%x, w%h, n_internal=100), '20 ghosts')
-        call expect_ok(conn_nodes_set_ids(w%nodes, conn_array_vector(ids), conn_array_vector(owner)), &
-                       'ids')
+        call expect_ok(conn_nodes_set_ids(w%nodes, conn_array_vector(ids), &
+                                          conn_array_vector(owner)), 'ids')
         call expect_ok(conn_rebuild(w%map, w%nodes), 'rebuild')
         call expect_error(conn_nodes_set_ids(w%nodes, owner=conn_array_vector(owner(:19))), &
                           CONN_E_ARGUMENT, '19', 'too few owners')

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Nodes in, rebuild, loop over pairs, values of pairs summed at the nodes, move, rebuild, patch: the
- * same digits as ../fortran/neighbours.f90 and ../python/neighbours.py.
- * cc neighbours.c $(pkg-config --cflags --libs connectivity) -lm */
+ * Nodes in, rebuild, loop over pairs, sums of pair values at nodes, move, rebuild, patch: the same
+ * digits as ../fortran/neighbours.f90 and ../python/neighbours.py. Built by
+ *
+ *     cc neighbours.c $(pkg-config --cflags --libs connectivity) -lm */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +12,11 @@
 
 enum { side = 10, n = side * side * side, left = n - side * side };
 
-static double x[n][3], h[n], density[n], push[n][3];
+static double x[n][3], h[n], density[n], push[3 * n];
+static const double* shown = push + 3 * (left - 1);
+static conn_nodes* gas;
+static conn_map* map;
+static conn_pair_field* field;
 
 static void check(conn_status status) {
     if (status == CONN_OK) return;
@@ -19,20 +24,16 @@ static void check(conn_status status) {
     exit(1);
 }
 
-static void report(const char* what, conn_map* map, const conn_pair_field* force) {
-    conn_map_info info = CONN_MAP_INFO_INIT;
-    const double* f = push[left - 1];
-    check(conn_map_get_info(map, &info));
-    check(conn_pair_field_sum(force, map, CONN_ANTISYMMETRIC, CONN_SUM_DETERMINISTIC, push[0], 3 * n));
-    printf("%s: %lld pairs, force%24.16E%24.16E%24.16E\n", what, (long long)info.n_pairs, f[0], f[1],
-           f[2]);
-}
-
-static void interact(conn_map* map, conn_pair_field* force) {
+static void step(void) {
+    const conn_array positions = conn_array_matrix(x[0], n, 3), lengths = conn_array_vector(h, n);
     conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
-    double* f = NULL;
+    double* force = NULL;
+    check(conn_nodes_set_h(gas, n, &positions, 1, &lengths));
+    check(conn_map_rebuild(map, &gas, 1));
+    check(conn_pair_field_destroy(&field));
+    check(conn_pair_field_create(map, 3, &field));
+    check(conn_pair_field_data(field, map, &force, NULL, NULL));
     check(conn_map_pairs_acquire(map, CONN_SPACE_HOST, CONN_PAIRS_EXPAND, &pairs));
-    check(conn_pair_field_data(force, map, &f, NULL, NULL));
     /* A node sees itself; Wendland C2 over its value at distance 0. */
     for (int a = 0; a < n; ++a) density[a] = 1;
     for (int64_t k = 0; k < pairs.n_pairs; ++k) { /* each pair once */
@@ -41,20 +42,18 @@ static void interact(conn_map* map, conn_pair_field* force) {
         const double q = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / 1.5, t = (1 - q) * (1 - q);
         density[pairs.i[k]] += t * t * (1 + 4 * q);
         density[pairs.j[k]] += t * t * (1 + 4 * q);
-        for (int axis = 0; axis < 3; ++axis) f[3 * k + axis] = t * d[axis];
+        for (int axis = 0; axis < 3; ++axis) force[3 * k + axis] = t * d[axis];
     }
+    check(conn_pair_field_sum(field, map, CONN_ANTISYMMETRIC, CONN_SUM_DETERMINISTIC, push, 3 * n));
+    printf("rebuilt: %lld pairs\ndensity%24.16E%24.16E\nforce%24.16E%24.16E%24.16E\n",
+           (long long)pairs.n_pairs, density[0], density[n / 2 - 1], shown[0], shown[1], shown[2]);
     check(conn_map_pairs_release(&pairs));
-    printf("density%24.16E%24.16E\n", density[0], density[n / 2 - 1]);
-    report("rebuilt", map, force);
 }
 
 int main(void) {
     conn_context* context = NULL;
-    conn_nodes* gas = NULL;
-    conn_map* map = NULL;
-    conn_pair_field* force = NULL;
     int32_t keep[n], old2new[n];
-    const conn_array positions = conn_array_matrix(x[0], n, 3), lengths = conn_array_vector(h, n);
+    int64_t n_pairs = 0;
 
     for (int a = 0; a < n; ++a) { /* a unit lattice; supports reach 2 h = 1.5 */
         x[a][0] = a % side, x[a][1] = a / side % side, x[a][2] = a / side / side;
@@ -63,25 +62,22 @@ int main(void) {
     check(conn_context_create(NULL, &context));
     check(conn_nodes_create(context, "gas", 3, 2.0, &gas));
     check(conn_map_create(context, NULL, &map));
-    check(conn_nodes_set_h(gas, n, &positions, 1, &lengths));
-    check(conn_map_rebuild(map, &gas, 1));
-    check(conn_pair_field_create(map, 3, &force));
-    interact(map, force);
+    step();
 
     /* Stretched along x, squeezed along y. */
     for (int a = 0; a < n; ++a) x[a][0] *= 1.25, x[a][1] *= 0.9;
-    check(conn_nodes_set_h(gas, n, &positions, 1, &lengths));
-    check(conn_map_rebuild(map, &gas, 1));
-    check(conn_pair_field_reset(force, map));
-    interact(map, force);
+    step();
 
     /* The last layer goes, the other nodes keep their numbers. */
     for (int a = 0; a < n; ++a) keep[a] = a < left, old2new[a] = a;
-    check(conn_map_patch(map, keep, old2new, n, &force, 1));
-    report("patched", map, force);
-    conn_pair_field_destroy(&force);
-    conn_map_destroy(&map);
-    conn_nodes_destroy(&gas);
-    conn_context_destroy(&context);
+    check(conn_map_patch(map, keep, old2new, n, &field, 1));
+    check(conn_map_pairs_copy(map, NULL, NULL, NULL, 0, &n_pairs));
+    check(conn_pair_field_sum(field, map, CONN_ANTISYMMETRIC, CONN_SUM_DETERMINISTIC, push, 3 * n));
+    printf("patched: %lld pairs\nforce%24.16E%24.16E%24.16E\n", (long long)n_pairs, shown[0],
+           shown[1], shown[2]);
+    check(conn_pair_field_destroy(&field));
+    check(conn_map_destroy(&map));
+    check(conn_nodes_destroy(&gas));
+    check(conn_context_destroy(&context));
     return 0;
 }
