@@ -6,7 +6,7 @@
 ! types of Fortran: an array brings its length, texts are character strings, truth is logical, what
 ! may be NULL in C is optional (and therefore last). Functions return a status, CONN_OK or an error
 ! of which conn_error_text(status) says what, where, which value and what is allowed; on an error
-! all arguments keep what they had. Shorter ways are the generic names conn_set_h, conn_set_tensor,
+! all arguments keep what they had, but for a size that is needed. Shorter ways are the generic names conn_set_h, conn_set_tensor,
 ! conn_rebuild, conn_acquire, conn_release, conn_destroy, and conn_*_pointers.
 !
 ! Handles (conn_context, conn_nodes, conn_map, ...) are null before they are created; a copy is the

@@ -2,8 +2,10 @@
 """The part of the Fortran module that follows from the C headers alone: constants, structs, and an
 interface of every function, in capi/fortran/c_<part>.inc.
 
-Usage: bindings.py CAPI         compares the files with the headers, exit status 1 if they differ
-       bindings.py CAPI --write writes them
+Usage: bindings.py CAPI             compares the files with the headers, exit status 1 if not equal
+       bindings.py CAPI --write     writes them
+       bindings.py CAPI --test DIR  writes a program, DIR/offsets.{c,f90}, that compares the places
+                                    of all members of all structs in the two languages
 
 Pointers to one number or struct that is written are dummy arguments passed by reference, and so are
 arrays of handles; all other pointers are type(c_ptr) by value, since they may be NULL.
@@ -159,8 +161,65 @@ def part_text(capi, part, structs):
     return "\n".join(lines + ["    end interface", ""])
 
 
+C_TEST = """#include <connectivity_boundary.h>
+#include <connectivity_query.h>
+int64_t offset_in_c(int32_t k) {{
+    static const size_t offsets[] = {{{offsets}}};
+    return (int64_t)offsets[k];
+}}
+"""
+FORTRAN_TEST = """program offsets
+    use, intrinsic :: iso_c_binding
+    use connectivity
+    implicit none
+    interface
+        function offset_in_c(k) bind(c) result(offset)
+            import
+            integer(c_int32_t), value :: k
+            integer(c_int64_t) :: offset
+        end function offset_in_c
+    end interface
+    logical :: wrong = .false.
+{variables}
+{calls}
+    if (wrong) error stop 1
+contains
+    subroutine compare(start, member, k, name)
+        type(c_ptr), intent(in) :: start, member
+        integer(c_int32_t), intent(in) :: k
+        character(*), intent(in) :: name
+        integer(c_intptr_t) :: offset
+        offset = transfer(member, offset) - transfer(start, offset)
+        if (offset == offset_in_c(k)) return
+        wrong = .true.
+        print '(a, 2(a, i0))', name, ' is at ', offset, ', in C at ', offset_in_c(k)
+    end subroutine compare
+end program offsets
+"""
+
+
+def write_test(capi, folder):
+    offsets, variables, calls = [], [], []
+    for part in PARTS:
+        text = without_comments((capi / f"connectivity_{part}.h").read_text())
+        for name, body in re.findall(r"typedef struct (\w+) \{(.*?)\} \w+;", text, flags=re.S):
+            variable = name.replace("conn_", "s_")
+            variables.append(f"    type({name}), target :: {variable}")
+            for _, _, field, _ in members(body):
+                member = RENAMED.get(field, field)
+                calls.append(f"    call compare(c_loc({variable}), c_loc({variable}%{member}), &\n"
+                             f"                 {len(offsets)}, '{name}%{member}')")
+                offsets.append(f"\n        offsetof({name}, {field})")
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "offsets.c").write_text(C_TEST.format(offsets=",".join(offsets)))
+    (folder / "offsets.f90").write_text(
+        FORTRAN_TEST.format(variables="\n".join(variables), calls="\n".join(calls)))
+
+
 def main():
     capi = pathlib.Path(sys.argv[1])
+    if "--test" in sys.argv:
+        return write_test(capi, pathlib.Path(sys.argv[3]))
     structs, wrong = set(), 0
     for part in PARTS:
         path = capi / "fortran" / f"c_{part}.inc"
