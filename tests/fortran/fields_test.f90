@@ -75,7 +75,7 @@ contains
         call end_world(w)
     end subroutine coupling_comes_from_arrays_and_functions
 
-    function scaled_sum(user_data, slot_i, slot_j) bind(c) result(answer)
+    recursive function scaled_sum(user_data, slot_i, slot_j) bind(c) result(answer)
         type(c_ptr), value :: user_data
         integer(c_int32_t), value :: slot_i, slot_j
         real(c_double) :: answer
@@ -114,7 +114,7 @@ contains
         call end_world(w)
     end subroutine pairs_that_are_left_out_are_gone
 
-    function every_third(user_data, slot_i, slot_j) bind(c) result(answer)
+    recursive function every_third(user_data, slot_i, slot_j) bind(c) result(answer)
         type(c_ptr), value :: user_data
         integer(c_int32_t), value :: slot_i, slot_j
         integer(c_int32_t) :: answer

@@ -169,7 +169,7 @@ contains
     end subroutine a_traversal_brings_every_row_once
 
     !> Neighbours, by worker.
-    function count_entries(user_data, worker, n_rows, slots, offsets, neighbours) bind(c) &
+    recursive function count_entries(user_data, worker, n_rows, slots, offsets, neighbours) bind(c) &
         result(answer)
         type(c_ptr), value :: user_data
         integer(c_int32_t), value :: worker
