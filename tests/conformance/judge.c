@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "judge.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -144,6 +145,8 @@ conf_result conf_judge(const conf_library* library, const conf_scene* scene, int
     }
     if (child == 0) {
         close(ends[0]);
+        const int quiet = open("/dev/null", O_WRONLY); /* what libraries print */
+        if (quiet >= 0) dup2(quiet, STDOUT_FILENO), dup2(quiet, STDERR_FILENO);
         const conf_result result = judge_here(library, scene, limit);
         const ssize_t written = write(ends[1], &result, sizeof result);
         _exit(written == (ssize_t)sizeof result ? 0 : 1);
