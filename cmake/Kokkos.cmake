@@ -41,6 +41,12 @@ if(NOT TARGET Kokkos::kokkos)
         set_property(TARGET ${imported} PROPERTY IMPORTED_GLOBAL TRUE)
     endif()
 endif()
+# One that a project around this has, or that was given by Kokkos_DIR, kokkos.sh did not ask.
+if(CONNECTIVITY_KOKKOS STREQUAL shared AND Kokkos_VERSION VERSION_LESS 4.4)
+    message(FATAL_ERROR "CONNECTIVITY_KOKKOS=shared needs Kokkos 4.4 or newer, this is "
+        "${Kokkos_VERSION} in ${Kokkos_DIR}: older ones lose track of what is allocated where a "
+        "library that shares them hides its symbols")
+endif()
 message(STATUS
     "Kokkos ${Kokkos_VERSION} (${CONNECTIVITY_KOKKOS}; ${Kokkos_DEVICES}): ${Kokkos_DIR}")
 

@@ -65,6 +65,7 @@ probe() {
 
 find_cached() {
     for prefix in $(ls -d "$cache"/kokkos-*-"$compiler-$backends" 2>/dev/null | sort -rV); do
+        case $kind:$prefix in shared:*/kokkos-[0-3].* | shared:*/kokkos-4.[0-3].*) continue ;; esac
         if [ -f "$prefix/lib/cmake/Kokkos/KokkosConfig.cmake" ]; then
             echo "$prefix/lib/cmake/Kokkos"
             return 0
@@ -180,7 +181,13 @@ if [ "$find_only" = yes ]; then
 fi
 
 say "no: taking its source and building it; this happens once"
-for source in from_release from_sdist from_trilinos; do
+sources="from_release from_sdist from_trilinos"
+if [ "$kind" = shared ]; then
+    sources=from_release
+    say "    only the release: the others carry 3.4.01, and a shared Kokkos must be 4.4 or newer,"
+    say "    as this library hides its symbols"
+fi
+for source in $sources; do
     rm -rf "$work/source" "$work/build" "$work/stage"
     log=/dev/null
     if "$source" && build; then

@@ -10,7 +10,7 @@ namespace {
 TEST(CapiFuzz, garbage_never_breaks_the_library) {
     int n_built = 0, n_views = 0, n_traversed = 0, n_patched = 0, n_summed = 0, n_bounded = 0;
     int n_estimated = 0;
-    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    for (std::uint64_t seed = 0; seed < 25; ++seed) {
         Fuzz fuzz(seed);
         for (int k = 0; k < 4000; ++k) fuzz.call();
         n_built += fuzz.n_built;
