@@ -121,7 +121,6 @@ ReadOptions options_from(Random& random) {
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
     ::testing::GTEST_FLAG(break_on_failure) = true;  // libFuzzer keeps the input of an abort
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    H5set_free_list_limits(0, 0, 0, 0, 0, 0);  // or freed memory stays where ASan cannot see it
     connectivity::start_runtime({.n_threads = 1});
     connectivity::test::path();  // made before, and hence destroyed after, what is called at exit
     std::atexit(connectivity::test::at_end);
