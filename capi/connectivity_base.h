@@ -112,15 +112,19 @@ static inline conn_array conn_array_of(int32_t dtype, const void* data, int64_t 
     conn_array a = {data, CONN_SPACE_HOST, 0, dtype, 1, {n, 1}, {1, 1}};
     return a;
 }
+/** The same of CONN_FLOAT64. */
 static inline conn_array conn_array_vector(const double* data, int64_t n) {
     return conn_array_of(CONN_FLOAT64, data, n);
 }
+/** The same of CONN_FLOAT32. */
 static inline conn_array conn_array_vector_float(const float* data, int64_t n) {
     return conn_array_of(CONN_FLOAT32, data, n);
 }
+/** The same of CONN_INT32. */
 static inline conn_array conn_array_vector_int32(const int32_t* data, int64_t n) {
     return conn_array_of(CONN_INT32, data, n);
 }
+/** The same of CONN_INT64. */
 static inline conn_array conn_array_vector_int64(const int64_t* data, int64_t n) {
     return conn_array_of(CONN_INT64, data, n);
 }
@@ -130,9 +134,11 @@ static inline conn_array conn_array_matrix_of(int32_t dtype, const void* data, i
     conn_array a = {data, CONN_SPACE_HOST, 0, dtype, 2, {n, n_components}, {n_components, 1}};
     return a;
 }
+/** The same of CONN_FLOAT64. */
 static inline conn_array conn_array_matrix(const double* data, int64_t n, int64_t n_components) {
     return conn_array_matrix_of(CONN_FLOAT64, data, n, n_components);
 }
+/** The same of CONN_FLOAT32. */
 static inline conn_array conn_array_matrix_float(const float* data, int64_t n,
                                                  int64_t n_components) {
     return conn_array_matrix_of(CONN_FLOAT32, data, n, n_components);
@@ -143,9 +149,11 @@ static inline conn_array conn_array_planar_of(int32_t dtype, const void* data, i
     conn_array a = {data, CONN_SPACE_HOST, 0, dtype, 2, {n, n_components}, {1, n}};
     return a;
 }
+/** The same of CONN_FLOAT64. */
 static inline conn_array conn_array_planar(const double* data, int64_t n, int64_t n_components) {
     return conn_array_planar_of(CONN_FLOAT64, data, n, n_components);
 }
+/** The same of CONN_FLOAT32. */
 static inline conn_array conn_array_planar_float(const float* data, int64_t n,
                                                  int64_t n_components) {
     return conn_array_planar_of(CONN_FLOAT32, data, n, n_components);

@@ -27,6 +27,8 @@ typedef struct conn_boundaries conn_boundaries;
 /** Without boundaries. dim: 1, 2 or 3. */
 CONN_API conn_status conn_boundaries_create(conn_context* context, int32_t dim,
                                             conn_boundaries** boundaries);
+/** Ends them; *boundaries becomes NULL. The map keeps its lists. NULL is fine, and so is
+ * *boundaries NULL. */
 CONN_API conn_status conn_boundaries_destroy(conn_boundaries** boundaries);
 
 enum {

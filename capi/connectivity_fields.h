@@ -39,6 +39,7 @@ typedef struct conn_pair_field conn_pair_field;
 /** n_components zeros for every pair; 1 to 256. CONN_E_NOT_BUILT without pairs. */
 CONN_API conn_status conn_pair_field_create(const conn_map* map, int32_t n_components,
                                             conn_pair_field** field);
+/** Ends it; *field becomes NULL. NULL is fine, and so is *field NULL. */
 CONN_API conn_status conn_pair_field_destroy(conn_pair_field** field);
 /** Begins anew for the present pairs of a map, with zeros, in the memory it has if that suffices.
  */

@@ -84,6 +84,8 @@ CONN_API conn_status conn_map_options_init(conn_map_options* options, size_t siz
 /** An empty map. options NULL means the defaults. */
 CONN_API conn_status conn_map_create(conn_context* context, const conn_map_options* options,
                                      conn_map** map);
+/** Ends it; *map becomes NULL. Views of it stay valid until they are released. NULL is fine, and so
+ * is *map NULL. */
 CONN_API conn_status conn_map_destroy(conn_map** map);
 /** Options of the next rebuilds; the present lists stay. The arrays active and interactions are
  * copied here: a host with other active nodes in every step sets its options in every step.
@@ -153,6 +155,7 @@ typedef struct conn_map_info {
 } conn_map_info;
 #define CONN_MAP_INFO_INIT \
     { sizeof(conn_map_info), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+/** What the last rebuild or patch left. */
 CONN_API conn_status conn_map_get_info(const conn_map* map, conn_map_info* info);
 /** *bytes: what the map holds in a space now: lists, spare memory for the next rebuild, copies for
  * views and sums, and lists of older generations that acquired views still pin. *high_water: the

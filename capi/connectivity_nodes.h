@@ -33,6 +33,8 @@ CONN_API conn_status conn_context_options_init(conn_context_options* options, si
  * the process, chosen by its first context: CONN_E_UNSUPPORTED if a later one asks for others. */
 CONN_API conn_status conn_context_create(const conn_context_options* options,
                                          conn_context** context);
+/** Ends it; *context becomes NULL. What was created with it goes on. NULL is fine, and so is
+ * *context NULL. */
 CONN_API conn_status conn_context_destroy(conn_context** context);
 /** Number of host threads in use, and of workers in conn_map_traverse. */
 CONN_API conn_status conn_context_threads(const conn_context* context, int32_t* n_threads);
@@ -62,6 +64,8 @@ typedef struct conn_nodes conn_nodes;
  * the eta at which the kernel ends; the support radius is kernel_extent * h. */
 CONN_API conn_status conn_nodes_create(conn_context* context, const char* name, int32_t dim,
                                        double kernel_extent, conn_nodes** nodes);
+/** Ends it; *nodes becomes NULL. Maps keep what they built of it. NULL is fine, and so is *nodes
+ * NULL. */
 CONN_API conn_status conn_nodes_destroy(conn_nodes** nodes);
 /** Copies positions [n, dim] and smoothing lengths h [n] >= 0 (same length unit). positions is one
  * array (n_positions = 1) or one array [n] for each axis (n_positions = dim). Each argument is

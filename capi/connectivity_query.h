@@ -41,6 +41,7 @@ typedef struct conn_query conn_query;
 
 /** Without nodes. */
 CONN_API conn_status conn_query_create(conn_context* context, conn_query** query);
+/** Ends it; *query becomes NULL. NULL is fine, and so is *query NULL. */
 CONN_API conn_status conn_query_destroy(conn_query** query);
 /** Takes the nodes of lists[n_lists], at least one, all of one dimension dim. Of domain only
  * periodic, box_lo, box_hi and index_base are read; NULL: open on all axes, slots from 0. Fails as

@@ -93,6 +93,7 @@ CONN_API conn_status conn_map_rows_release(conn_rows_view* view);
 /** Pins the pairs; flags: 0 or CONN_PAIRS_EXPAND. CONN_E_NOT_BUILT if there are none. */
 CONN_API conn_status conn_map_pairs_acquire(conn_map* map, int32_t space, int32_t flags,
                                             conn_pairs_view* view);
+/** Lets go of the pairs, as conn_map_rows_release of rows. */
 CONN_API conn_status conn_map_pairs_release(conn_pairs_view* view);
 /** Pins the rows of overlap: of every node, ghosts too, the nodes that see a common node with it,
  * each node being in its own sight, so that a row holds all neighbours. Only nodes are witnesses:
@@ -103,6 +104,7 @@ CONN_API conn_status conn_map_overlap_acquire(const conn_map* map, int32_t space
 /** Pins the intersections. CONN_E_NOT_BUILT unless the last rebuild had them. */
 CONN_API conn_status conn_map_intersection_acquire(const conn_map* map, int32_t space,
                                                    conn_intersection_view* view);
+/** Lets go of the intersections, as conn_map_rows_release of rows. */
 CONN_API conn_status conn_map_intersection_release(conn_intersection_view* view);
 /**@}*/
 
