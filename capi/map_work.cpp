@@ -27,6 +27,23 @@ void log_entries(const conn_map& map, const char* work) {
                                                decimals(entry.ms));
 }
 
+void log_success(const conn_map& map, const char* work, double ms) {
+    const ConnectivityMap& ours = *map.map;
+    const bool is_built = ours.generation() > 0;
+    const auto number = [](std::int64_t n, const char* what) {
+        return std::to_string(n) + " " + what + ", ";
+    };
+    map.log->write(
+        CONN_LOG_INFO,
+        name_of(map, work) + "generation " + std::to_string(ours.generation()) + ", " +
+            number(ours.layout().n_lists(), "lists") + number(ours.layout().n_slots(), "slots") +
+            number(ours.layout().n_rows(), "rows") +
+            number(is_built && ours.options().rows ? ours.rows().size() : 0, "entries") +
+            number(is_built && ours.options().wants_pairs() ? ours.pairs().size() : 0, "pairs") +
+            number(held_bytes(map), "bytes") + decimals(ms));
+    if (map.log->wants(CONN_LOG_DEBUG)) log_entries(map, work);
+}
+
 }  // namespace
 
 Offset held_bytes(const conn_map& map) {
@@ -60,26 +77,15 @@ Offset note_memory(const conn_map& map) {
     return bytes;
 }
 
-void log_failure(const conn_map& map, const char* work, const char* text) {
+void log_failure(const conn_map& map, const char* work, const char* text) noexcept try {
     if (map.log->wants(CONN_LOG_ERROR)) map.log->write(CONN_LOG_ERROR, name_of(map, work) + text);
+} catch (...) {
 }
 
-void log_success(const conn_map& map, const char* work, double ms) {
-    if (!map.log->wants(CONN_LOG_INFO)) return;
-    const ConnectivityMap& ours = *map.map;
-    const bool is_built = ours.generation() > 0;
-    const auto number = [](std::int64_t n, const char* what) {
-        return std::to_string(n) + " " + what + ", ";
-    };
-    map.log->write(
-        CONN_LOG_INFO,
-        name_of(map, work) + "generation " + std::to_string(ours.generation()) + ", " +
-            number(ours.layout().n_lists(), "lists") + number(ours.layout().n_slots(), "slots") +
-            number(ours.layout().n_rows(), "rows") +
-            number(is_built && ours.options().rows ? ours.rows().size() : 0, "entries") +
-            number(is_built && ours.options().wants_pairs() ? ours.pairs().size() : 0, "pairs") +
-            number(held_bytes(map), "bytes") + decimals(ms));
-    if (map.log->wants(CONN_LOG_DEBUG)) log_entries(map, work);
+void note_success(const conn_map& map, const char* work, double ms) noexcept try {
+    note_memory(map);
+    if (map.log->wants(CONN_LOG_INFO)) log_success(map, work, ms);
+} catch (...) {
 }
 
 }  // namespace connectivity::capi

@@ -20,9 +20,10 @@ Offset pinned_bytes(const conn_map& map);
 /// Sees to the high-water mark; call it wherever memory may have grown. Returns the bytes now.
 Offset note_memory(const conn_map& map);
 
-/// Lines about a piece of work that failed, or succeeded.
-void log_failure(const conn_map& map, const char* work, const char* text);
-void log_success(const conn_map& map, const char* work, double ms);
+/// Lines about a piece of work that failed, or succeeded. That there is no memory for a line says
+/// nothing about the work, so they are then left out.
+void log_failure(const conn_map& map, const char* work, const char* text) noexcept;
+void note_success(const conn_map& map, const char* work, double ms) noexcept;
 
 /// Runs body() as a piece of work on the map.
 template <class Body>
@@ -34,9 +35,7 @@ void work_on(const conn_map& map, const char* work, const Body& body) {
         log_failure(map, work, e.what());
         throw;
     }
-    const double ms = watch.ms();
-    note_memory(map);
-    log_success(map, work, ms);
+    note_success(map, work, watch.ms());
 }
 
 }  // namespace connectivity::capi

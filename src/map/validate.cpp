@@ -7,6 +7,7 @@
 
 #include "pair_filter.hpp"
 #include "prepare.hpp"
+#include "search/first_exception.hpp"
 
 namespace connectivity {
 
@@ -16,12 +17,18 @@ namespace {
 template <class IsBad>
 Offset first_bad(Offset n, const IsBad& is_bad) {
     Offset first = n;
+    detail::FirstException failure;  // samples are searched, which takes memory
     Kokkos::parallel_reduce(
         "map/validate", Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>(0, n),
         [&](const Offset k, Offset& lowest) {
-            if (k < lowest && is_bad(k)) lowest = k;
+            try {
+                if (k < lowest && is_bad(k)) lowest = k;
+            } catch (...) {
+                failure.keep();
+            }
         },
         Kokkos::Min<Offset>(first));
+    failure.rethrow();
     return std::min(first, n);
 }
 

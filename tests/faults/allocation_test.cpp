@@ -2,9 +2,6 @@
 // Memory that cannot be had, at every allocation of every call: the old lists stay, equal and
 // readable, and the next call is right.
 
-#include <cerrno>
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
 #include <connectivity/base/runtime.hpp>
@@ -13,27 +10,7 @@
 #include <support/random.hpp>
 #include <support/random_case.hpp>
 
-namespace {
-
-/// Allocations until one fails; negative: none will.
-long allocations_left = -1;
-
-}  // namespace
-
-#if !defined(__SANITIZE_ADDRESS__)
-// In this program every allocation of the library, of Kokkos and of C++ comes through here.
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) {
-    if (allocations_left >= 0 && allocations_left-- == 0) {
-        errno = ENOMEM;
-        return nullptr;
-    }
-    return __libc_malloc(size);
-}
-constexpr bool can_fail = true;
-#else
-constexpr bool can_fail = false;
-#endif
+#include "failing_malloc.hpp"
 
 namespace connectivity::test {
 namespace {

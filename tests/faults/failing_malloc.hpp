@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// Memory that cannot be had: in this program every allocation of the library, of Kokkos and of C++
+/// comes through here, and one of them fails.
+
+namespace connectivity::test {
+
+/// Allocations until one fails; negative: none will.
+extern long allocations_left;
+
+/// Whether this program has a malloc of its own; the address sanitizer brings its own.
+extern const bool can_fail;
+
+}  // namespace connectivity::test
