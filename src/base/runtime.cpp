@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -109,6 +110,9 @@ void start_runtime(const RuntimeOptions& options) {
     phase = Phase::starting;
     try {
         start_kokkos(options);
+    } catch (const std::bad_alloc&) {
+        phase = Phase::untouched;
+        throw Error(Status::memory, "start_runtime: no memory for Kokkos to start");
     } catch (const std::exception& e) {
         phase = Phase::untouched;
         throw Error(Status::internal,

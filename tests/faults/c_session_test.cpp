@@ -30,12 +30,6 @@ NodeSet widened(NodeSet set) {
     return set;
 }
 
-/// The OpenMP runtime ends the process where it lacks memory; one thread takes none.
-class OneThread : public ::testing::Environment {
-    void SetUp() override { const Context context(1); }
-};
-[[maybe_unused]] const auto* const one_thread = ::testing::AddGlobalTestEnvironment(new OneThread);
-
 class CSession : public ::testing::Test {
 protected:
     void SetUp() override {

@@ -4,9 +4,22 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include <gtest/gtest.h>
+#include <omp.h>
+
 namespace connectivity::test {
 
 long allocations_left = -1;
+
+namespace {
+
+/// The OpenMP runtime ends the process where it lacks memory; one thread takes none.
+class OneThread : public ::testing::Environment {
+    void SetUp() override { omp_set_num_threads(1); }
+};
+[[maybe_unused]] const auto* const one_thread = ::testing::AddGlobalTestEnvironment(new OneThread);
+
+}  // namespace
 
 #if defined(__SANITIZE_ADDRESS__)
 const bool can_fail = false;

@@ -150,6 +150,55 @@ TEST(HostThreads, eight_may_start_the_library_at_once) {
     });
 }
 
+/// Forbidden by the header, as threads see each other's work half-way through their own; but calls
+/// wait for each other inside, so no call breaks anything.
+TEST(HostThreads, threads_that_share_a_handle_against_the_rules_break_nothing) {
+    const Context context;
+    const NodeSet sets[] = {random_nodes(2, 80, 1), random_nodes(2, 60, 2)};
+    const Nodes nodes[] = {{context, 2, sets[0]}, {context, 2, sets[1]}};
+    const Map map(context);
+    ASSERT_TRUE(ok(map.rebuild({nodes[0].handle})));
+    in_threads(4, [&](int t) {
+        for (int k = 0; k < 30; ++k) {
+            EXPECT_TRUE(ok(map.rebuild({nodes[(t + k) % 2].handle})));
+            conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
+            EXPECT_TRUE(ok(conn_map_pairs_acquire(map.handle, CONN_SPACE_HOST, 0, &pairs)));
+            const std::size_t which = pairs.n_slots == 80 ? 0 : 1;
+            EXPECT_EQ(pairs_of(pairs), brute_force(2, {sets[which]}).pairs);
+            const std::vector<std::int32_t> keep(80, 1);
+            std::vector<std::int32_t> old2new(80);
+            std::iota(old2new.begin(), old2new.end(), 0);
+            const conn_status patched =
+                conn_map_patch(map.handle, keep.data(), old2new.data(), 80, nullptr, 0);
+            EXPECT_TRUE(patched == CONN_OK || patched == CONN_E_ARGUMENT) << conn_last_error();
+            EXPECT_EQ(pairs_of(pairs), brute_force(2, {sets[which]}).pairs);
+            EXPECT_TRUE(ok(conn_map_pairs_release(&pairs)));
+        }
+    });
+    ASSERT_TRUE(ok(map.rebuild({nodes[0].handle})));
+    EXPECT_EQ(read_lists(map.handle), brute_force(2, {sets[0]}));
+}
+
+TEST(HostThreads, of_threads_that_destroy_one_handle_a_single_one_does) {
+    const Context context;
+    for (int k = 0; k < 20; ++k) {
+        conn_map* shared = nullptr;
+        ASSERT_TRUE(ok(conn_map_create(context.handle, nullptr, &shared)));
+        std::atomic<int> n_destroyed{0}, n_refused{0};
+        in_threads(4, [&](int) {
+            conn_map* mine = shared;
+            std::uint64_t generation = 1;
+            const conn_status asked = conn_map_generation(mine, &generation);
+            EXPECT_TRUE(asked == CONN_OK || asked == CONN_E_HANDLE);
+            const conn_status status = conn_map_destroy(&mine);
+            if (status == CONN_OK) ++n_destroyed;
+            if (status == CONN_E_HANDLE) ++n_refused;
+        });
+        EXPECT_EQ(n_destroyed, 1);
+        EXPECT_EQ(n_refused, 3);
+    }
+}
+
 TEST(HostThreads, errors_of_one_do_not_reach_the_others) {
     const Context context;
     std::atomic<int> n_working{2};
