@@ -6,6 +6,7 @@
 
 #include <connectivity/base/parallel.hpp>
 
+#include "callbacks.hpp"
 #include "guard.hpp"
 #include "map_work.hpp"
 
@@ -62,8 +63,8 @@ private:
         const std::int32_t answer = [&] {
             CallbackScope scope;
             scope.clear_error();
-            return callback_(user_data_, worker, n_rows, block.slots.data(), block.offsets.data(),
-                             block.neighbours.data());
+            return call_host(callback_, user_data_, worker, n_rows, block.slots.data(),
+                             block.offsets.data(), block.neighbours.data());
         }();
         if (answer == 0) return clear_error();
         stopped_ = true;

@@ -11,6 +11,7 @@
 #include <connectivity/map/map_options.hpp>
 
 #include "labels.hpp"
+#include "search/first_exception.hpp"
 
 namespace connectivity {
 
@@ -33,8 +34,22 @@ public:
         return exclude_ == nullptr || !(*exclude_)(std::min(a, b), std::max(a, b));
     }
 
+    /// The same in a parallel loop: the first exception of a predicate is kept for `rethrow`, and
+    /// nothing is kept of the pairs after it, so no row becomes longer than it was counted.
+    bool keeps_or_notes(Slot a, Slot b) const noexcept {
+        if (failure_.any()) return false;
+        try {
+            return keeps(a, b);
+        } catch (...) {
+            failure_.keep();
+            return false;
+        }
+    }
+    void rethrow() const { failure_.rethrow(); }
+
     /// Filters a list whose row r belongs to the node with label node_of(r). The storage of the two
-    /// changes places. Throws Error{memory}; the list is then as before.
+    /// changes places. Throws Error{memory} and what the predicate throws; the list is then as
+    /// before.
     template <class NodeOf>
     void apply(Csr& list, Csr& spare, const Labels& labels, const NodeOf& node_of) const {
         const Offset* const offsets = list.offsets().data();
@@ -43,7 +58,7 @@ public:
             if (offsets[row] == offsets[row + 1]) return;
             const Slot self = labels.slot(static_cast<Slot>(node_of(row)));
             for (Offset k = offsets[row]; k < offsets[row + 1]; ++k)
-                if (keeps(self, labels.slot(values[k]))) f(values[k]);
+                if (keeps_or_notes(self, labels.slot(values[k]))) f(values[k]);
         };
         spare.prepare(list.n_rows(), [&](Offset row) {
             Offset n = 0;
@@ -57,6 +72,7 @@ public:
                 kept(row, [&](Slot value) { *end++ = value; });
             }
         });
+        rethrow();
         std::swap(list, spare);
     }
 
@@ -64,6 +80,7 @@ private:
     const SlotLayout& layout_;
     const std::uint8_t* interactions_;
     const PairPredicate* exclude_;
+    mutable detail::FirstException failure_;
 };
 
 }  // namespace connectivity

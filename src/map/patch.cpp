@@ -168,7 +168,9 @@ void Patch::prepare_pairs(const PairFilter& filter, const SlotLayout& layout, co
                           BuiltLists built) {
     renumbers_ = false;
     const auto same_row = [](Offset row) { return row; };
-    const auto kept = [&](Slot self, Slot other) { return filter.keeps(self, other) ? other : -1; };
+    const auto kept = [&](Slot self, Slot other) {
+        return filter.keeps_or_notes(self, other) ? other : -1;
+    };
     const Offset n_lists = layout.n_lists();
     if (built.rows)
         derive(lists.rows, rows_, lists.rows.n_rows(),
@@ -186,6 +188,7 @@ void Patch::prepare_pairs(const PairFilter& filter, const SlotLayout& layout, co
                        },
                        kept, false},
                [this](Offset n) { return take_sources(n); });
+    filter.rethrow();
 }
 
 void Patch::commit(MapLists lists, BuiltLists built) {
