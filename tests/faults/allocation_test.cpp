@@ -45,7 +45,7 @@ long fail_each_allocation(const F& f, const Check& check) {
 class Faults : public ::testing::Test {
 protected:
     void SetUp() override {
-        if (!can_fail) GTEST_SKIP() << "the address sanitizer has a malloc of its own";
+        if (!can_fail) GTEST_SKIP() << "the sanitizer has a malloc of its own";
         // The OpenMP runtime ends the process where it lacks memory; one thread takes none.
         start_runtime({.n_threads = 1});
     }

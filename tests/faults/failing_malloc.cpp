@@ -5,7 +5,19 @@
 #include <cstdlib>
 
 #include <gtest/gtest.h>
+
+#if defined(_OPENMP)
 #include <omp.h>
+#endif
+
+// Sanitizers bring a malloc of their own.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define HAS_OTHER_MALLOC
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HAS_OTHER_MALLOC
+#endif
+#endif
 
 namespace connectivity::test {
 
@@ -15,13 +27,17 @@ namespace {
 
 /// The OpenMP runtime ends the process where it lacks memory; one thread takes none.
 class OneThread : public ::testing::Environment {
-    void SetUp() override { omp_set_num_threads(1); }
+    void SetUp() override {
+#if defined(_OPENMP)
+        omp_set_num_threads(1);
+#endif
+    }
 };
 [[maybe_unused]] const auto* const one_thread = ::testing::AddGlobalTestEnvironment(new OneThread);
 
 }  // namespace
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(HAS_OTHER_MALLOC)
 const bool can_fail = false;
 #else
 const bool can_fail = true;
@@ -39,7 +55,7 @@ bool fails_now() {
 
 }  // namespace connectivity::test
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(HAS_OTHER_MALLOC)
 using connectivity::test::fails_now;
 
 extern "C" {

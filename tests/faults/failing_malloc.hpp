@@ -8,7 +8,7 @@ namespace connectivity::test {
 /// Allocations until one fails; negative: none will.
 extern long allocations_left;
 
-/// Whether this program has a malloc of its own; the address sanitizer brings its own.
+/// Whether allocations can be made to fail here; sanitizers bring a malloc of their own.
 extern const bool can_fail;
 
 }  // namespace connectivity::test

@@ -41,7 +41,7 @@ int exit_status_of_child(long k) {
 }
 
 TEST(StartWithoutMemory, is_refused_and_works_later) {
-    if (!can_fail) GTEST_SKIP() << "the address sanitizer has a malloc of its own";
+    if (!can_fail) GTEST_SKIP() << "the sanitizer has a malloc of its own";
     if (runtime_is_running()) GTEST_SKIP() << "the library runs already: run this test alone";
     int n_refused = 0, n_others = 0;
     for (long k = 0; k < 100000; ++k) {
