@@ -5,11 +5,13 @@
  *   abandon        the process ends with live handles and views
  *   shutdown       everything may be destroyed late; later calls say so
  *   fork N         the child of a process with N threads
+ *   limit          memory that the system refuses
  *   parallel       calls from inside the host's own OpenMP region
  * Exit status 0, or the number of the line that failed modulo 256. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -189,6 +191,24 @@ static void fork_with(int n_threads) {
     finish(&h);
 }
 
+/* 24 GB where 2 GiB are allowed. */
+static void limit(void) {
+    host h = start(2);
+    const int64_t n_huge = 1000000000;
+    const double one = 1;
+    conn_array positions = conn_array_matrix(&one, n_huge, 2);
+    conn_array lengths = conn_array_vector(&one, n_huge);
+    struct rlimit memory;
+    positions.stride[0] = positions.stride[1] = lengths.stride[0] = 0;
+    REQUIRE(getrlimit(RLIMIT_AS, &memory) == 0);
+    memory.rlim_cur = (rlim_t)2 << 30;
+    REQUIRE(setrlimit(RLIMIT_AS, &memory) == 0);
+    REQUIRE(conn_nodes_set_h(h.nodes, n_huge, &positions, 1, &lengths) == CONN_E_MEMORY);
+    REQUIRE(conn_last_error()[0] != '\0');
+    REQUIRE(rebuild(&h) == CONN_OK);
+    finish(&h);
+}
+
 static void parallel(void) {
     int n_right = 0;
 #pragma omp parallel num_threads(3) reduction(+ : n_right)
@@ -213,6 +233,8 @@ int main(int argc, char** argv) {
         late_destroy();
     } else if (strcmp(mode, "fork") == 0 && argc > 2) {
         fork_with(atoi(argv[2]));
+    } else if (strcmp(mode, "limit") == 0) {
+        limit();
     } else if (strcmp(mode, "parallel") == 0) {
         parallel();
     } else {
