@@ -9,6 +9,7 @@
 #include <connectivity/base/error.hpp>
 
 #include "connectivity_boundary.h"
+#include "connectivity_query.h"
 
 namespace {
 
@@ -181,6 +182,8 @@ static_assert(CONN_BOUNDARY_REFLECTING == 1 && CONN_BOUNDARY_PERIODIC == 2);
 static_assert(CONN_GHOSTS_KEEP == 0 && CONN_GHOSTS_CULL == 1 && CONN_GHOSTS_CULL_MOST == 2 &&
               CONN_GHOSTS_REFRESH == 3);
 static_assert(CONN_FIELD_SCALAR == 0 && CONN_FIELD_VECTOR == 1 && CONN_FIELD_TENSOR == 2);
+static_assert(CONN_CANDIDATES_MASTER == 1 && CONN_CANDIDATES_COARSE == 2 &&
+              CONN_CANDIDATES_REFINE == 3);
 static_assert(CONN_STRUCT_ARRAY == 1 && CONN_STRUCT_CONTEXT_OPTIONS == 2 &&
               CONN_STRUCT_MAP_OPTIONS == 3 && CONN_STRUCT_MAP_INFO == 4);
 static_assert(CONN_STRUCT_ROWS_VIEW == 5 && CONN_STRUCT_PAIRS_VIEW == 6 &&
