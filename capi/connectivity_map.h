@@ -188,10 +188,10 @@ CONN_API conn_status conn_map_traversal(const conn_map* map, int32_t list, int32
                                         int64_t capacity, int64_t* count);
 /** Puts a field of the host in another order: node k of out becomes node order[k] of in. order [n],
  * n being in->extent[0], is a permutation that counts from index_base, 0 or 1. in: 1 or 2
- * dimensions, any dtype, strides as they are but no 0, and no element twice. out: the address of
- * component 0 of node 0, the rest laid out as in. out may be in->data: the field is then copied
- * first. Otherwise the two must not overlap. CONN_E_ARGUMENT names what is wrong, and out is then
- * untouched. */
+ * dimensions, any dtype, strides as they are but no 0, no element twice, and nodes not mixed with
+ * components. out: the address of component 0 of node 0, the rest laid out as in. out may be
+ * in->data: the field is then copied first. Otherwise the two must not overlap; nor out and order.
+ * CONN_E_ARGUMENT names what is wrong, and out is then untouched. */
 CONN_API conn_status conn_reorder(const conn_array* in, const int32_t* order, int64_t n,
                                   int32_t index_base, void* out);
 /**@}*/

@@ -139,7 +139,7 @@ conn_status conn_map_memory(const conn_map* map, int32_t space, int64_t* bytes,
     return guarded_with_runtime(__func__, [&] {
         const auto& ours = Registry::instance().get<const conn_map>(map, "map");
         check_space(space);
-        const Offset now = note_memory(ours);
+        const Offset now = memory_now(ours);
         if (bytes != nullptr) *bytes = now;
         if (high_water != nullptr) *high_water = ours.high_water;
     });

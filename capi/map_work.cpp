@@ -71,10 +71,17 @@ Offset pinned_bytes(const conn_map& map) {
     return bytes;
 }
 
-Offset note_memory(const conn_map& map) {
+Offset memory_now(const conn_map& map) {
     const Offset bytes = held_bytes(map) + pinned_bytes(map);
     map.high_water = std::max(map.high_water, bytes);
     return bytes;
+}
+
+void note_memory(const conn_map& map) noexcept {
+    try {
+        memory_now(map);
+    } catch (...) {  // counted next time
+    }
 }
 
 void log_failure(const conn_map& map, const char* work, const char* text) noexcept try {

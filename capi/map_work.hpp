@@ -17,8 +17,12 @@ Offset held_bytes(const conn_map& map);
 /// Bytes that views of older generations hold.
 Offset pinned_bytes(const conn_map& map);
 
-/// Sees to the high-water mark; call it wherever memory may have grown. Returns the bytes now.
-Offset note_memory(const conn_map& map);
+/// Bytes the map and views of it hold; sees to the high-water mark. Throws std::bad_alloc.
+Offset memory_now(const conn_map& map);
+
+/// Sees to the high-water mark if there is memory to count with; call it wherever memory may have
+/// grown, when nothing may fail any more.
+void note_memory(const conn_map& map) noexcept;
 
 /// Lines about a piece of work that failed, or succeeded. That there is no memory for a line says
 /// nothing about the work, so they are then left out.

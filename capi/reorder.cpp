@@ -41,15 +41,18 @@ Layout read_layout(const conn_array& in) {
                         node > component * (layout.n_components - 1) ||
                         component > node * (layout.n - 1);
     if ((layout.n > 1 && node == 0) || (layout.n_components > 1 && component == 0) || !nested)
-        throw Error(Status::argument,
-                    "in.stride = {" + std::to_string(in.stride[0]) + ", " +
-                        std::to_string(layout.component) +
-                        "} puts two elements in one place, must give each a place of its own");
+        throw Error(
+            Status::argument,
+            "in.stride = {" + std::to_string(in.stride[0]) + ", " +
+                std::to_string(layout.component) +
+                "} puts two elements in one place or mixes nodes with components; one of the two "
+                "must step over all of the other");
     return layout;
 }
 
-/// Throws Error{argument} unless out is in->data, or far enough from it.
-void check_places(const Layout& layout, const conn_array& in, const void* out) {
+/// Throws Error{argument} unless out is in->data, or far enough from it, and from the order.
+void check_places(const Layout& layout, const conn_array& in, const std::int32_t* order,
+                  const void* out) {
     const std::size_t size = element_size(in.dtype);
     const auto from = reinterpret_cast<std::uintptr_t>(in.data),
                to = reinterpret_cast<std::uintptr_t>(out);
@@ -62,6 +65,11 @@ void check_places(const Layout& layout, const conn_array& in, const void* out) {
         throw Error(Status::argument, "out overlaps in: " + std::to_string(between) +
                                           " bytes apart, must be 0 or at least " +
                                           std::to_string(length));
+    const auto numbers = reinterpret_cast<std::uintptr_t>(order),
+               end = numbers + static_cast<std::uintptr_t>(layout.n) * sizeof *order,
+               first = to + static_cast<std::uintptr_t>(layout.begin()) * size;
+    if (first < end && numbers < first + length)
+        throw Error(Status::argument, "out overlaps order, which is read while out is written");
 }
 
 /// Throws Error{argument} for the first number out of range, or the least that is not there once.
@@ -136,7 +144,7 @@ conn_status conn_reorder(const conn_array* in, const int32_t* order, int64_t n, 
         if (n == 0) return;
         if (order == nullptr || out == nullptr)
             throw Error(Status::null, std::string(order == nullptr ? "order" : "out") + " is NULL");
-        check_places(layout, *in, out);
+        check_places(layout, *in, order, out);
         check_permutation(order, n, base);
         switch (in->dtype) {
             case CONN_FLOAT32: return reorder<float>(layout, in->data, order, base, out);

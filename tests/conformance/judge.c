@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "judge.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
@@ -156,6 +157,6 @@ conf_result conf_judge(const conf_library* library, const conf_scene* scene, int
     const ssize_t got = read(ends[0], &result, sizeof result);
     close(ends[0]);
     int status = 0;
-    while (waitpid(child, &status, 0) < 0) continue;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
     return got == (ssize_t)sizeof result ? result : verdict_on_death(status, limit);
 }
