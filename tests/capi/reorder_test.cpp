@@ -124,6 +124,24 @@ TEST(CapiReorder, what_is_no_permutation_is_refused_and_nothing_is_written) {
     EXPECT_TRUE(ok(call()));
 }
 
+TEST(CapiReorder, an_order_under_its_output_is_refused_and_stays) {
+    const Context context;
+    constexpr int length = 100;
+    Slots memory(3 * length);
+    for (int k = 0; k < 3 * length; ++k) memory[static_cast<std::size_t>(k)] = k % length;
+    const Slots before = memory;
+    const Slots field(length, 7);
+    const conn_array in = conn_array_vector_int32(field.data(), length);
+    const auto call = [&](int out) {
+        return conn_reorder(&in, memory.data() + length, length, 0, memory.data() + out);
+    };
+    for (const int out : {1, length, 2 * length - 1})
+        EXPECT_TRUE(fails(call(out), CONN_E_ARGUMENT, {"out overlaps order"})) << out;
+    EXPECT_EQ(memory, before);
+    EXPECT_TRUE(ok(call(0)));
+    EXPECT_TRUE(ok(call(2 * length)));
+}
+
 TEST(CapiReorder, layouts_with_two_elements_in_one_place_and_overlaps_are_refused) {
     const Context context;
     std::vector<double> field(64), out(64);

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! Rows, pairs and orders of a map, against brute force.
 module lists_test
+    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_loc
     use support
     implicit none
 
@@ -101,6 +102,27 @@ contains
                           'the smaller of two buffers counts')
         call end_world(w)
     end subroutine copies_are_the_lists
+
+    !> Extents are told, not allocated: what is written is what the map has.
+    subroutine arrays_of_more_than_2_to_the_31_elements_are_what_they_are()
+        type(world) :: w
+        integer(c_int32_t), allocatable, target :: memory(:)
+        integer(c_int32_t), pointer, contiguous :: huge_i(:)
+        real(c_double), pointer, contiguous :: huge_x(:, :)
+        type(conn_array) :: x
+        integer(c_int64_t) :: n
+        call make_world(w)
+        call expect_ok(conn_map_pairs_copy(w%map, n), 'the number of pairs')
+        allocate (memory(n), source=-7_c_int32_t)
+        call c_f_pointer(c_loc(memory), huge_i, [3000000000_c_int64_t])
+        call expect_ok(conn_map_pairs_copy(w%map, n, j=huge_i), 'room for 3e9 pairs')
+        call expect(all(memory >= 0), 'written where the host wants it')
+        call c_f_pointer(c_loc(memory), huge_x, [3_c_int64_t, 800000000_c_int64_t])
+        x = conn_array_matrix(huge_x)
+        call expect(c_associated(x%data) .and. x%extent(1) == 800000000_c_int64_t, 'x(3, 8e8)')
+        call expect(all(x%stride == [3, 1]), 'strides of x(3, 8e8)')
+        call end_world(w)
+    end subroutine arrays_of_more_than_2_to_the_31_elements_are_what_they_are
 
     subroutine orders_are_permutations_that_fields_follow()
         type(world) :: w

@@ -39,6 +39,8 @@ program main
         call index_base_1_indexes_ordinary_arrays()
     case ('copies_are_the_lists')
         call copies_are_the_lists()
+    case ('arrays_of_more_than_2_to_the_31_elements_are_what_they_are')
+        call arrays_of_more_than_2_to_the_31_elements_are_what_they_are()
     case ('orders_are_permutations_that_fields_follow')
         call orders_are_permutations_that_fields_follow()
     case ('overlap_and_intersections_are_sets_of_common_nodes')
