@@ -112,16 +112,22 @@ typedef struct conn_estimate {
     int64_t n_pairs;    /**< 0 if pairs were not asked for */
     int64_t bytes;      /**< of rows, pairs and orders, in a map without spare memory; overlap and
                              intersections are not in it */
-    int64_t peak_bytes; /**< bytes, and at most about what the search holds beside them: nodes,
-                             order, 16 bytes a node, 4 MiB a thread and every found row until all
-                             are counted, in memory that may be two thirds empty; rows once more
-                             where lists are made from them */
+    int64_t peak_bytes; /**< at least what conn_map_memory says of a new map after its first rebuild,
+                             at most twice it where lists are most of it: bytes and three standard
+                             errors more, nodes, order, 16 bytes a node, 4 MiB a thread, every found
+                             row in memory that may be half empty, and lists from which others are
+                             made, with all pairs that are then left out. Of a search on a device
+                             only what the host holds */
     int64_t n_sampled;  /**< nodes whose neighbours were counted */
     double relative_error; /**< standard error of n_entries and n_pairs over their values; 0: they
                                 are exact */
+    int32_t is_lower_bound; /**< 1: overlap or intersections are asked for; they, and what they are
+                                 made from, are in neither number of bytes: finding their sizes
+                                 would take as long as making them */
+    int32_t reserved;       /**< 0 */
 } conn_estimate;
 #define CONN_ESTIMATE_INIT \
-    { sizeof(conn_estimate), 0, 0, 0, 0, 0, 0 }
+    { sizeof(conn_estimate), 0, 0, 0, 0, 0, 0, 0, 0 }
 /** What a rebuild with these lists would make, while nothing is stored and the map stays as it is.
  * Exact up to 20000 nodes with a row; beyond from a sample of about 4096, always the same ones.
  * Most of its time goes into an order of all nodes: about a third of that of a first rebuild. Fails

@@ -65,7 +65,7 @@ CONN_CHECK_OFFSET(conn_map_options, n_interactions, 152);
 CONN_CHECK_OFFSET(conn_map_options, index_base, 160);
 CONN_CHECK_OFFSET(conn_map_options, reserved_3, 164);
 
-static_assert(is_plain<conn_estimate> && sizeof(conn_estimate) == 56);
+static_assert(is_plain<conn_estimate> && sizeof(conn_estimate) == 64);
 CONN_CHECK_OFFSET(conn_estimate, struct_size, 0);
 CONN_CHECK_OFFSET(conn_estimate, n_entries, 8);
 CONN_CHECK_OFFSET(conn_estimate, n_pairs, 16);
@@ -73,6 +73,8 @@ CONN_CHECK_OFFSET(conn_estimate, bytes, 24);
 CONN_CHECK_OFFSET(conn_estimate, peak_bytes, 32);
 CONN_CHECK_OFFSET(conn_estimate, n_sampled, 40);
 CONN_CHECK_OFFSET(conn_estimate, relative_error, 48);
+CONN_CHECK_OFFSET(conn_estimate, is_lower_bound, 56);
+CONN_CHECK_OFFSET(conn_estimate, reserved, 60);
 
 static_assert(is_plain<conn_map_info> && sizeof(conn_map_info) == 72);
 CONN_CHECK_OFFSET(conn_map_info, struct_size, 0);

@@ -155,9 +155,11 @@ conn_status conn_map_estimate(const conn_map* map, conn_nodes* const* lists, int
         out.n_entries = found.n_entries;
         out.n_pairs = found.n_pairs;
         out.bytes = found.bytes;
-        out.peak_bytes = found.peak_bytes;
+        // The handle keeps a copy of the active nodes, too.
+        out.peak_bytes = found.peak_bytes + static_cast<Offset>(ours.options.active.size());
         out.n_sampled = found.n_sampled;
         out.relative_error = found.relative_error;
+        out.is_lower_bound = found.is_lower_bound ? 1 : 0;
         write_struct(estimate, out, out.struct_size);
     });
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "build_bytes.hpp"
 #include "map_impl.hpp"
 
 namespace connectivity {
@@ -32,7 +33,20 @@ struct Sample {
     View<std::uint8_t> active;  // [n_slots]
     View<double> reach;         // [n_slots]
     Offset n_stored = 0, n_sampled = 0;
+    Slot uncounted = -1;  // searched for the scratch memory it takes, but not in the sample
 };
+
+/// The node that reaches furthest may take most of the memory of a search.
+void search_widest(Sample& sample) {
+    Slot widest = -1;
+    for (Slot slot = 0; slot < sample.layout.n_slots(); ++slot)
+        if (sample.layout.is_stored(slot) &&
+            (widest < 0 || sample.reach(slot) > sample.reach(widest)))
+            widest = slot;
+    if (widest < 0 || sample.active(widest) != 0) return;
+    sample.active(widest) = 1;
+    sample.uncounted = widest;
+}
 
 Sample choose(std::span<const NodeList> lists, const MapOptions& options,
               const EstimateLimits& limits) {
@@ -57,6 +71,7 @@ Sample choose(std::span<const NodeList> lists, const MapOptions& options,
         sample.active(slot) = lot < share ? 1 : 0;
         sample.n_sampled += sample.active(slot);
     }
+    search_widest(sample);
     return sample;
 }
 
@@ -87,45 +102,71 @@ struct Moments {
 };
 
 struct alignas(64) RowMoments {
-    Moments entries, pairs;
+    Moments entries, pairs;              // of the lists
+    Moments found_entries, found_pairs;  // with pairs that are to be left out
+    Moments later_halves;                // found pairs whose first node has no row
+
+    void add(const RowMoments& other) {
+        entries.add(other.entries), pairs.add(other.pairs);
+        found_entries.add(other.found_entries), found_pairs.add(other.found_pairs);
+        later_halves.add(other.later_halves);
+    }
 };
 
-/// Adds up rows as a traversal hands them over.
+/// Adds up rows as a traversal hands them over, and leaves out pairs itself.
 class Counter {
 public:
-    Counter(const Sample& sample, bool is_symmetric)
-        : sample_(sample), is_symmetric_(is_symmetric), sums_(n_workers()) {}
+    Counter(const Sample& sample, const MapOptions& options)
+        : sample_(sample),
+          filter_(sample.layout, options),
+          is_symmetric_(options.mode == SearchMode::gather_scatter),
+          by_key_(options.order == ListOrder::key),
+          sums_(n_workers()) {}
 
     void operator()(int worker, Slot i, std::span<const Slot> neighbours) {
-        if (sample_.active(i) == 0) return;
-        Offset entries = 0, pairs = 0;  // twice
+        if (sample_.active(i) == 0 || i == sample_.uncounted) return;
+        Twice kept, found;
+        Offset later = 0;
         for (const Slot j : neighbours) {
-            if (!is_symmetric_ || !sample_.layout.is_stored(j)) {
-                entries += 2, pairs += 2;
-                continue;
-            }
-            const double mine = sample_.reach(i), other = sample_.reach(j);
-            const int share = mine < other ? 2 : mine == other ? 1 : 0;
-            entries += 2 * share, pairs += share;
+            const Twice share = share_of(i, j);
+            found += share;
+            if (!filter_.any() || filter_.keeps(i, j)) kept += share;
+            // Who is first by key is not known here.
+            if (!sample_.layout.is_stored(j) && (by_key_ || j < i)) later += 2;
         }
-        sums_[static_cast<std::size_t>(worker)].entries.add(entries);
-        sums_[static_cast<std::size_t>(worker)].pairs.add(pairs);
+        RowMoments& sums = sums_[static_cast<std::size_t>(worker)];
+        sums.entries.add(kept.entries), sums.pairs.add(kept.pairs);
+        sums.found_entries.add(found.entries), sums.found_pairs.add(found.pairs);
+        sums.later_halves.add(later);
     }
 
     RowMoments total() const {
         RowMoments all;
-        for (const RowMoments& sums : sums_)
-            all.entries.add(sums.entries), all.pairs.add(sums.pairs);
+        for (const RowMoments& sums : sums_) all.add(sums);
         return all;
     }
 
 private:
+    struct Twice {
+        Offset entries = 0, pairs = 0;
+        void operator+=(const Twice& other) { entries += other.entries, pairs += other.pairs; }
+    };
+
+    /// Twice what an entry of row i adds.
+    Twice share_of(Slot i, Slot j) const {
+        if (!is_symmetric_ || !sample_.layout.is_stored(j)) return {2, 2};
+        const double mine = sample_.reach(i), other = sample_.reach(j);
+        const int share = mine < other ? 2 : mine == other ? 1 : 0;
+        return {2 * share, share};
+    }
+
     const Sample& sample_;
-    bool is_symmetric_;
+    PairFilter filter_;
+    bool is_symmetric_, by_key_;
     std::vector<RowMoments> sums_;  // [n_workers]
 };
 
-/// The search of a rebuild, for the rows of the sample alone.
+/// The search of a rebuild, for the rows of the sample alone, with all pairs.
 MapOptions sampling(const MapOptions& options, const Sample& sample) {
     MapOptions rows = options;
     rows.ghost_rows = options.stores_all_rows();
@@ -133,38 +174,37 @@ MapOptions sampling(const MapOptions& options, const Sample& sample) {
     rows.intersection = IntersectionKind::none;
     rows.order = ListOrder::slot;
     rows.active = sample.active;
+    rows.interactions.clear();
+    rows.exclude.reset();
     return rows;
-}
-
-Offset list_bytes(const MapEstimate& found, const MapOptions& options, const SlotLayout& layout) {
-    constexpr Offset offset = sizeof(Offset), slot = sizeof(Slot), key = sizeof(std::uint64_t);
-    Offset bytes = 0;
-    if (options.rows)
-        bytes += offset * (layout.n_rows() * layout.n_lists() + 1) + slot * found.n_entries;
-    if (options.wants_pairs()) bytes += offset * (layout.n_slots() + 1) + slot * found.n_pairs;
-    if (options.order == ListOrder::key) bytes += (2 * slot + key) * layout.n_slots();
-    if (options.spatial_order) bytes += slot * layout.n_slots();
-    return bytes;
-}
-
-/// What a search holds beside the lists: `held` are nodes and order, as a traversal left them.
-Offset search_bytes(Offset held, const RowMoments& all, const Sample& sample,
-                    const MapOptions& options) {
-    constexpr Offset record = 16, worker = Offset{4} << 20, spare = 3;
-    const Offset n_found =
-        options.rows || options.is_derived() ? all.entries.total(sample) : all.pairs.total(sample);
-    const Offset rows = spare * Offset{sizeof(Slot)} * n_found + n_workers() * worker,
-                 by_list =
-                     sample.layout.n_lists() > 1
-                         ? Offset{sizeof(Slot)} * sample.layout.n_rows() * sample.layout.n_lists()
-                         : 0;
-    const Offset again = options.is_derived() ? Offset{sizeof(Slot)} * n_found : 0;
-    return held + record * sample.layout.n_slots() + rows + by_list + again;
 }
 
 Offset bytes_of(const Report& report, const char* product) {
     const ReportEntry* const entry = report.find(product);
     return entry != nullptr ? entry->bytes : 0;
+}
+
+/// The lists by the sample, the rest as the traversal left it.
+BuildSizes sizes_of(const RowMoments& all, const Sample& sample, const Report& report) {
+    BuildSizes sizes;
+    sizes.kept = {all.entries.total(sample), all.pairs.total(sample)};
+    sizes.found = {all.found_entries.total(sample), all.found_pairs.total(sample)};
+    sizes.later_halves = all.later_halves.total(sample);
+    sizes.nodes = bytes_of(report, "nodes");
+    sizes.order = bytes_of(report, "order");
+    sizes.scratch = bytes_of(report, "scratch");
+    return sizes;
+}
+
+/// Three standard errors more, so that chance does not make the peak too low.
+BuildSizes widened(BuildSizes sizes, const RowMoments& all, const Sample& sample) {
+    const double entries = 1 + 3 * all.found_entries.relative_error(sample),
+                 pairs = 1 + 3 * all.found_pairs.relative_error(sample);
+    const auto widen = [](Offset& n, double by) { n = std::llround(static_cast<double>(n) * by); };
+    for (ListSizes* const lists : {&sizes.kept, &sizes.found})
+        widen(lists->entries, entries), widen(lists->pairs, pairs);
+    widen(sizes.later_halves, entries);
+    return sizes;
 }
 
 }  // namespace
@@ -175,19 +215,22 @@ MapEstimate estimate(std::span<const NodeList> lists, const MapOptions& options,
     MapEstimate found;
     run_kernels("estimate", [&] {
         const Sample sample = choose(lists, options, limits);
-        Counter counter(sample, options.mode == SearchMode::gather_scatter);
+        Counter counter(sample, options);
         ConnectivityMap map;
         map.for_each_row(lists, sampling(options, sample), counter);
         const RowMoments all = counter.total();
+        const BuildSizes sizes = sizes_of(all, sample, map.report()),
+                         most = widened(sizes, all, sample);
         found.n_sampled = sample.n_sampled;
-        if (options.rows) found.n_entries = all.entries.total(sample);
-        if (options.wants_pairs()) found.n_pairs = all.pairs.total(sample);
+        if (options.rows) found.n_entries = sizes.kept.entries;
+        if (options.wants_pairs()) found.n_pairs = sizes.kept.pairs;
         found.relative_error =
             std::max(options.rows ? all.entries.relative_error(sample) : 0,
                      options.wants_pairs() ? all.pairs.relative_error(sample) : 0);
-        found.bytes = list_bytes(found, options, sample.layout);
-        const Offset held = bytes_of(map.report(), "nodes") + bytes_of(map.report(), "order");
-        found.peak_bytes = found.bytes + search_bytes(held, all, sample, options);
+        found.bytes = list_bytes(sizes, options, sample.layout);
+        found.peak_bytes = list_bytes(most, options, sample.layout) +
+                           spare_bytes(most, lists, options, sample.layout);
+        found.is_lower_bound = options.overlap || options.intersection != IntersectionKind::none;
     });
     return found;
 }

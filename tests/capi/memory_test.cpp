@@ -129,6 +129,49 @@ TEST(CapiEstimate, of_few_nodes_is_what_a_rebuild_makes_and_leaves_the_map_alone
     EXPECT_GT(found.peak_bytes, found.bytes);
 }
 
+TEST(CapiEstimate, of_the_peak_is_at_least_what_a_first_rebuild_holds) {
+    const Context context;
+    const std::vector<NodeSet> sets{random_nodes(3, 6000, 1), random_nodes(3, 4000, 2)};
+    std::vector<std::uint8_t> active(10000, 1);
+    for (std::size_t k = 0; k < active.size(); k += 3) active[k] = 0;
+    const std::uint8_t interactions[] = {1, 1, 1, 0};
+    for (const bool key_order : {false, true})
+        for (const bool excludes : {false, true}) {
+            conn_map_options options = CONN_MAP_OPTIONS_INIT;
+            options.order = key_order ? CONN_ORDER_KEY : CONN_ORDER_SLOT;
+            options.active = active.data(), options.n_active = 10000;
+            options.interactions = interactions, options.n_interactions = 4;
+            const Map map(context, options);
+            const conn_pair_predicate exclude = [](void*, std::int32_t i, std::int32_t j) {
+                return (i + j) % 2;
+            };
+            ASSERT_TRUE(
+                ok(conn_map_set_exclusion(map.handle, excludes ? exclude : nullptr, nullptr)));
+            const Nodes first(context, 3, sets[0]), second(context, 3, sets[1]);
+            conn_nodes* const lists[] = {first.handle, second.handle};
+            conn_estimate found = CONN_ESTIMATE_INIT;
+            ASSERT_TRUE(ok(conn_map_estimate(map.handle, lists, 2, &found)));
+            EXPECT_EQ(found.is_lower_bound, 0);
+            ASSERT_TRUE(ok(map.rebuild({first.handle, second.handle})));
+            EXPECT_LE(memory_of(map.handle).high_water, found.peak_bytes);
+        }
+}
+
+TEST(CapiEstimate, says_what_is_not_in_it) {
+    const Context context;
+    const Nodes nodes(context, 3, random_nodes(3, 300, 1));
+    for (const int overlap : {0, 1})
+        for (const int intersection : {CONN_INTERSECTION_NONE, CONN_INTERSECTION_ALL}) {
+            conn_map_options options = CONN_MAP_OPTIONS_INIT;
+            options.overlap = overlap, options.intersection = intersection;
+            const Map map(context, options);
+            conn_estimate found = CONN_ESTIMATE_INIT;
+            ASSERT_TRUE(ok(conn_map_estimate(map.handle, &nodes.handle, 1, &found)));
+            EXPECT_EQ(found.is_lower_bound,
+                      overlap != 0 || intersection != CONN_INTERSECTION_NONE ? 1 : 0);
+        }
+}
+
 TEST(CapiEstimate, fails_as_a_rebuild_does_but_for_the_budget) {
     const Context context;
     NodeSet set = random_nodes(3, 50, 1);

@@ -19,10 +19,15 @@ struct MapEstimate {
     Offset n_pairs = 0;    ///< 0 if pairs are not asked for
     /// Of rows, pairs, key order and spatial order in a new map; without overlap and intersections.
     Offset bytes = 0;
-    /// bytes, and at most about what the search holds beside them: nodes and their order, a record
-    /// of every slot, scratch of the workers, and each found row until all are counted, in memory
-    /// that grows by doubling for each worker and may be two thirds empty.
+    /// At least what a new map holds after its first build, wherever the search runs on the host:
+    /// bytes and three standard errors more, nodes and their order, a record of every slot, scratch
+    /// of the workers, each found row in memory that grows by doubling and may be half empty, and
+    /// lists from which others are made, with all pairs that `exclude` and `interactions` leave
+    /// out. At most twice what is held, where the lists are most of it.
     Offset peak_bytes = 0;
+    /// Overlap or intersections are asked for: they, and what they are made from, are in neither
+    /// number of bytes. Their sizes would take as long to find as the lists themselves.
+    bool is_lower_bound = false;
     Offset n_sampled = 0;       ///< nodes whose neighbours were counted
     double relative_error = 0;  ///< standard error of the numbers over them; 0: they are exact
 };
