@@ -116,8 +116,9 @@ void LabelSort::operator()(const CandidateList<Dim>& in, int label_bits, Form fo
     }
     from_.reserve(n), to_.reserve(n);
     int *from = from_.data(), *to = to_.data();
-    for (int k = 0; k < n; ++k) from[k] = k;
-    for (int pass = 0; pass < passes; ++pass) {
+    for (int k = 0; k < n; ++k) to[count_[0][digit(k, 0)]++] = k;
+    std::swap(from, to);
+    for (int pass = 1; pass < passes; ++pass) {
         for (int k = 0; k < n; ++k) to[count_[pass][digit(from[k], pass)]++] = from[k];
         std::swap(from, to);
     }

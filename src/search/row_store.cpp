@@ -29,7 +29,21 @@ void RowStore::begin_sweep(Offset arena_bytes, Offset expected_bytes) {
     only_counts_ = arena_bytes == 0;
     used_ = 0;
     past_caches_ = expected_bytes > cached;
-    for (Worker& worker : workers_) worker.arena.reset();
+    const Offset block = choose_ranges(expected_bytes);
+    for (Worker& worker : workers_) worker.arena.reset(static_cast<std::size_t>(n_ranges()), block);
+}
+
+/// Rows of one range shall stay in the cache of one core while they are put in order. Returns how
+/// many entries a block shall hold: every worker starts one for every range.
+Offset RowStore::choose_ranges(Offset expected_bytes) {
+    constexpr Offset range_bytes = Offset{1} << 18, most_ranges = 512, smallest_block = 1 << 10,
+                     largest_block = 1 << 13;
+    const Offset wanted =
+        past_caches_ ? std::min(expected_bytes / range_bytes, most_ranges) : Offset{1};
+    range_bits_ = 9;
+    while ((layout_->n_slots() >> range_bits_) > wanted) ++range_bits_;
+    const Offset share = expected_bytes / Offset{sizeof(Slot)} / n_ranges() / n_workers();
+    return std::clamp(share / 4, smallest_block, largest_block);
 }
 
 void RowStore::store_nothing(int, Slot slot) {
@@ -39,9 +53,9 @@ void RowStore::store_nothing(int, Slot slot) {
 }
 
 /// Memory for n entries: in the arena, or in passing while rows are only counted.
-Slot* RowStore::room(Worker& worker, Offset n) {
+Slot* RowStore::room(Worker& worker, Slot slot, Offset n) {
     if (!only_counted()) {
-        Slot* const row = worker.arena.begin_row(n, used_);
+        Slot* const row = worker.arena.begin_row(range_of(slot), n, used_);
         if (used_.load(std::memory_order_relaxed) > arena_bytes_)
             only_counts_.store(true, std::memory_order_relaxed);
         return row;
@@ -86,12 +100,12 @@ void RowStore::store(int worker_number, const FoundRow& found) {
         record(found.slot, nullptr, whole ? n : 0, n - before);
         return;
     }
-    Slot* const out = room(worker, most);
+    Slot* const out = room(worker, found.slot, most);
     int n = kernels_.expand(found.bits + first, found.n_words - first,
                             found.label + first * word_size, out);
     if (row < 0) n = keep_stored(out, n);
     if (whole) count_lists(row, out, n);
-    if (out != worker.row.data()) worker.arena.end_row(n);
+    if (out != worker.row.data()) worker.arena.end_row(range_of(found.slot), n);
     if (whole)
         record(found.slot, out, n, n - before);
     else
@@ -111,22 +125,13 @@ Counts RowStore::counts() const {
     return counts;
 }
 
-/// Asks for a row early: rows lie anywhere in the arenas.
-void prefetch_row(const ArenaRow& row) {
-    const Slot n = std::min<Slot>(std::max(row.length, row.later), 512);
-    const Slot* const first = row.first + row.length - std::max(row.length, row.later);
-    for (Slot k = 0; k < n + slots_per_line; k += slots_per_line) __builtin_prefetch(first + k);
-}
-
 /// Copies the rows of slots [first, last) into both lists; rows of consecutive slots lie side by
 /// side there.
 void RowStore::transfer_slots(Offset first, Offset last, const Products& products) const {
-    constexpr Offset ahead = 24;
     StreamWriter rows(past_caches_), halves(past_caches_);
     if (halves_)
         halves.start(products.halves.prepared_values() + products.halves.prepared_offsets()[first]);
     for (Offset slot = first; slot < last; ++slot) {
-        if (slot + ahead < last) prefetch_row(row_(slot + ahead));
         const ArenaRow& found = row_(slot);
         const Offset row = rows_ ? layout_->row_of_slot(slot) : -1;
         if (row >= 0) {
@@ -141,14 +146,24 @@ void RowStore::transfer_slots(Offset first, Offset last, const Products& product
     halves.finish();
 }
 
+/// Asks for all rows of a range, in the sequence of their memory.
+void RowStore::prefetch_range(std::size_t range) const {
+    for (const Worker& worker : workers_)
+        worker.arena.for_each_block(range, [](const Slot* first, const Slot* last) {
+            constexpr int second_level = 2;
+            for (; first < last; first += slots_per_line)
+                __builtin_prefetch(first, 0, second_level);
+        });
+}
+
 void RowStore::transfer(Products products) const {
-    constexpr Offset slots_per_chunk = 512;
+    constexpr int few_slots = 9;
+    const int bits = past_caches_ ? range_bits_ : few_slots;
     const Offset n = layout_->n_slots();
-    for_each_dynamic("search/groups/transfer", (n + slots_per_chunk - 1) / slots_per_chunk,
-                     [&](int, Offset chunk) {
-                         transfer_slots(chunk * slots_per_chunk,
-                                        std::min((chunk + 1) * slots_per_chunk, n), products);
-                     });
+    for_each_dynamic("search/groups/transfer", (n >> bits) + 1, [&](int, Offset chunk) {
+        if (past_caches_) prefetch_range(static_cast<std::size_t>(chunk));
+        transfer_slots(chunk << bits, std::min((chunk + 1) << bits, n), products);
+    });
     if (rows_) products.rows.publish();
     if (halves_) products.halves.publish();
 }

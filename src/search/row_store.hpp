@@ -60,12 +60,17 @@ private:
         std::vector<Slot> row;
     };
 
-    Slot* room(Worker& worker, Offset n);
+    std::size_t range_of(Slot slot) const { return static_cast<std::size_t>(slot >> range_bits_); }
+    Offset n_ranges() const { return (layout_->n_slots() >> range_bits_) + 1; }
+    Offset choose_ranges(Offset expected_bytes);
+    void prefetch_range(std::size_t range) const;
+    Slot* room(Worker& worker, Slot slot, Offset n);
     void record(Slot slot, const Slot* first, int n, int later);
     void count_lists(Offset row, const Slot* slots, Offset n);
     void transfer_slots(Offset first, Offset last, const Products& products) const;
 
     bool past_caches_ = false;
+    int range_bits_ = 9;  // slots of one range differ in these bits only
     Offset arena_bytes_ = 0;
     BitKernels kernels_{};
     std::atomic<bool> only_counts_{false};
