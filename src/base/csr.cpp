@@ -26,6 +26,11 @@ Offset Csr::set_total(Offset n_rows, Offset total) {
            (n_rows + 1) * static_cast<Offset>(sizeof(Offset));
 }
 
+Offset Csr::prepare_sizes(Offset n_rows, Offset n_values) {
+    take_spare(n_rows);
+    return set_total(n_rows, n_values);
+}
+
 void Csr::reserve() {
     const bool shared = values_.use_count() > 1;
     grown_ = {};

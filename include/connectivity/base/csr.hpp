@@ -42,6 +42,11 @@ public:
     template <class Count>
     Offset prepare(Offset n_rows, const Count& count);
 
+    /// First step where counting finds sums only: whoever fills then writes every offset, too, all
+    /// but the last one. Returns bytes and throws as `prepare` does.
+    Offset prepare_sizes(Offset n_rows, Offset n_values);
+    Offset* offsets_to_fill() { return spare_.data(); }
+
     /// Second step: takes the storage that the prepared rows need. Throws Error{memory}; nothing
     /// visible changes.
     void reserve();

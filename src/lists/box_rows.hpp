@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// A list of boxes with the image of every entry, where there are images: the library's CSR, and an
+/// array beside its values that changes with it.
+///
+/// Invariants: those of Csr. A copy shares its storage, which a rebuild of either leaves to the
+/// other.
+
+#include <connectivity/base/csr.hpp>
+#include <connectivity/lists/box_list.hpp>
+
+namespace connectivity::detail {
+
+class BoxRows {
+public:
+    /// Where fills write; `images` is null where there are none.
+    struct Out {
+        Offset* starts;
+        BoxId* boxes;
+        ImageCode* images;
+
+        void put(Offset at, BoxId box, ImageCode image) const {
+            boxes[at] = box;
+            if (images != nullptr) images[at] = image;
+        }
+    };
+
+    explicit BoxRows(const std::string& label) : label_(label), rows_(label) {}
+
+    /// Length of row i is count(i). Returns bytes. Throws Error{memory}; nothing visible changes.
+    template <class Count>
+    Offset prepare(Offset n_rows, bool with_images, const Count& count) {
+        return sized(rows_.prepare(n_rows, count), with_images);
+    }
+    Offset prepare_sizes(Offset n_rows, Offset n_values, bool with_images) {
+        return sized(rows_.prepare_sizes(n_rows, n_values), with_images);
+    }
+    void reserve() {
+        rows_.reserve();
+        grown_ = with_images_ ? allocate<ImageCode>(label_ + "/images", rows_.n_prepared())
+                              : View<ImageCode>();
+    }
+    Out out() { return {rows_.offsets_to_fill(), rows_.prepared_values(), grown_.data()}; }
+    Offset n_prepared() const { return rows_.n_prepared(); }
+    void publish() {
+        rows_.publish();
+        images_ = grown_;
+        grown_ = {};
+    }
+    void clear() {
+        rows_.clear();
+        images_ = grown_ = {};
+    }
+    void abandon() {
+        rows_.abandon();
+        grown_ = {};
+    }
+
+    BoxList view() const { return {rows_.offsets(), rows_.values(), images_}; }
+    const Csr& rows() const { return rows_; }
+    Offset bytes() const {
+        return rows_.bytes() + static_cast<Offset>(images_.size() + grown_.size());
+    }
+
+private:
+    Offset sized(Offset bytes, bool with_images) {
+        with_images_ = with_images;
+        return bytes + (with_images ? rows_.n_prepared() : 0);
+    }
+
+    std::string label_;
+    Csr rows_;
+    View<ImageCode> images_, grown_;
+    bool with_images_ = false;
+};
+
+}  // namespace connectivity::detail

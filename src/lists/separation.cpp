@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "separation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace connectivity {
+
+FromSepSmallerCrit from_sep_smaller_crit_named(std::string_view name) {
+    if (name == "static_linf") return FromSepSmallerCrit::static_linf;
+    if (name == "precise_linf") return FromSepSmallerCrit::precise_linf;
+    if (name == "static_l2") return FromSepSmallerCrit::static_l2;
+    throw Error(Status::argument, "from_sep_smaller_crit is '" + std::string(name) +
+                                      "', must be static_linf, precise_linf or static_l2");
+}
+
+namespace detail {
+namespace {
+
+void check_crit(const TreeView& tree, FromSepSmallerCrit crit) {
+    if (crit != FromSepSmallerCrit::static_linf && crit != FromSepSmallerCrit::precise_linf &&
+        crit != FromSepSmallerCrit::static_l2)
+        throw Error(Status::argument, "from_sep_smaller_crit is " +
+                                          std::to_string(static_cast<int>(crit)) +
+                                          ", must be static_linf, precise_linf or static_l2");
+    if (crit == FromSepSmallerCrit::static_linf && tree.extent_norm == ExtentNorm::l2)
+        throw Error(Status::argument,
+                    "from_sep_smaller_crit static_linf is not rigorous for a tree with extent "
+                    "norm l2, whose particles may leave the enlarged cube: use static_l2 or "
+                    "precise_linf");
+}
+
+void require(const char* name, std::size_t size, Offset n) {
+    if (static_cast<Offset>(size) < n)
+        throw Error(size == 0 ? Status::null : Status::argument,
+                    std::string("interaction lists: tree.") + name + " has " +
+                        std::to_string(size) + " elements, particles with radii need " +
+                        std::to_string(n));
+}
+
+}  // namespace
+
+Separation::Separation(const TreeView& tree, const TraversalOptions& options)
+    : tests_(tree.have_extent()),
+      sources_have_extent_(tree.sources.have_extent()),
+      dim_(tree.dim),
+      aligned_(tree.aligned_n_boxes),
+      min_sources_(options.from_sep_smaller_min_nsources_cumul),
+      root_extent_(tree.root_extent),
+      ball_(std::sqrt(static_cast<double>(tree.dim))),
+      crit_(options.crit()),
+      centers_(tree.box_centers.data()),
+      levels_(tree.box_levels.data()),
+      n_sources_below_(tree.sources.box_counts_cumul.data()) {
+    check_crit(tree, crit_);
+    if (!tests_) return;
+    const Offset n = dim_ * aligned_;
+    require("box_centers", tree.box_centers.size(), n);
+    if (min_sources_ > 0)
+        require("sources.box_counts_cumul", tree.sources.box_counts_cumul.size(), tree.n_boxes);
+    const auto side = [&](const TreeParticles& particles) {
+        if (crit_ == FromSepSmallerCrit::precise_linf) {
+            require("bounding_box_min", particles.bounding_box_min.size(), n);
+            require("bounding_box_max", particles.bounding_box_max.size(), n);
+        }
+        return Side{particles.bounding_box_min.data(), particles.bounding_box_max.data(),
+                    particles.have_extent() ? 1 + tree.stick_out_factor : 1.0};
+    };
+    targets_ = side(tree.targets);
+    sources_ = sources_have_extent_ ? side(tree.sources) : Side{};
+    slack_ = 8 * (tree.coordinates == CoordinateType::float32
+                      ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                      : std::numeric_limits<double>::epsilon());
+    for (int l = 0; l < 256; ++l)
+        half_widths_[static_cast<std::size_t>(l)] = std::ldexp(root_extent_, -(l + 1));
+}
+
+/// c(T) - c(S, image).
+Separation::Vector Separation::between(BoxId target, BoxId source, ImageCode image) const {
+    Vector v{};
+    for (int k = 0; k < dim_; ++k) {
+        const Offset axis = k * aligned_;
+        v[static_cast<std::size_t>(k)] = centers_[axis + target] - centers_[axis + source];
+    }
+    if (image != no_image) {
+        const auto shift = image_shift(image);
+        for (std::size_t k = 0; k < 3; ++k) v[k] -= shift[k] * root_extent_;
+    }
+    return v;
+}
+
+/// Distance from the particles below a box to a point, given as its offset from the box's centre.
+double Separation::distance(const Side& side, BoxId box, const Vector& to) const {
+    const double r = half_width(box) * side.enlargement;
+    double far = 0;
+    if (crit_ == FromSepSmallerCrit::static_l2) {
+        for (const double x : to) far += x * x;
+        return std::sqrt(far) - ball_ * r;
+    }
+    if (crit_ == FromSepSmallerCrit::static_linf) {
+        for (const double x : to) far = std::max(far, std::abs(x));
+        return far - r;
+    }
+    far = -std::numeric_limits<double>::infinity();
+    for (int k = 0; k < dim_; ++k) {
+        const Offset at = k * aligned_ + box;
+        const double lo = side.hull_min[at], hi = side.hull_max[at];
+        const double off = 0.5 * (lo + hi) - centers_[at];
+        far = std::max(far, std::abs(off - to[static_cast<std::size_t>(k)]) - 0.5 * (hi - lo));
+    }
+    return far;
+}
+
+bool Separation::test_smaller(BoxId target, BoxId source, ImageCode image) const {
+    if (min_sources_ > 0 && n_sources_below_[source] < min_sources_) return false;
+    Vector to = between(target, source, image);
+    for (double& x : to) x = -x;
+    const double r = half_width(source) * sources_.enlargement;
+    return distance(targets_, target, to) - r >= (2 - slack_) * r;
+}
+
+bool Separation::test_bigger(BoxId target, BoxId source, ImageCode image) const {
+    const Vector to = between(target, source, image);
+    const double reach = 3 * targets_.enlargement * half_width(target),
+                 r = half_width(source) * sources_.enlargement;
+    if (sources_have_extent_) return distance(sources_, source, to) >= reach - slack_ * (reach + r);
+    double far = 0;
+    for (const double x : to) far = std::max(far, std::abs(x));
+    return far >= (reach + r) * (1 - slack_);
+}
+
+}  // namespace detail
+}  // namespace connectivity

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// One build of interaction lists: everything that can fail first, then a fill that cannot.
+///
+/// Cost: every walk is made twice, to count and to fill; the only temporaries are the near rows, 16
+/// bytes a target box, and 16 bytes for each level and 256 target boxes.
+
+#include <vector>
+
+#include "near_rows.hpp"
+#include "state.hpp"
+
+namespace connectivity::detail {
+
+class TraversalBuild {
+public:
+    /// Checks options and tree, and finds what is near. Throws Error.
+    TraversalBuild(const TreeView& tree, const TraversalOptions& options);
+
+    /// Counts, checks the budget, and takes the storage that the lists need. Throws Error; then
+    /// the state is as it was.
+    void prepare(TraversalState& state);
+    /// Fills and publishes what was prepared.
+    void commit(TraversalState& state) noexcept;
+
+private:
+    struct Base {
+        std::vector<BoxId> boxes;
+        std::vector<Offset> level_starts;
+        Offset n_in(Offset level) const {
+            const auto l = static_cast<std::size_t>(level);
+            return level_starts[l + 1] - level_starts[l];
+        }
+    };
+    struct Plan {
+        const char* name;
+        bool wanted;
+        Offset bytes, entries;
+    };
+    static constexpr Offset chunk = 256;  ///< target boxes
+
+    void find_bases();
+    void count_targets();
+    void prepare_lists(TraversalState& state);
+    void prepare_smaller(SmallerLists& smaller);
+    void check_budget() const;
+    void reserve(TraversalState& state);
+    void make_report();
+
+    void fill_bases(BaseLists& base) const;
+    void fill_same_level(BoxRows& rows) const;
+    void fill_siblings(BoxRows& rows) const;
+    void fill_bigger(BoxRows& rows) const;
+    void fill_close_bigger(BoxRows& rows) const;
+    void fill_targets(TraversalState& state);
+    void publish(TraversalState& state);
+
+    template <class Count>
+    void plan(const char* name, bool wanted, BoxRows& rows, Offset n_rows, const Count& count) {
+        const Offset bytes = wanted ? rows.prepare(n_rows, periodic_, count) : 0;
+        plans_.push_back({name, wanted, bytes, wanted ? rows.n_prepared() : 0});
+    }
+    Offset n_levels() const { return tables_.tree.n_levels; }
+    Offset n_targets() const { return static_cast<Offset>(targets_.boxes.size()); }
+    BoxId target(Offset i) const { return targets_.boxes[static_cast<std::size_t>(i)]; }
+    BoxId target_parent(Offset i) const {
+        return target_parents_.boxes[static_cast<std::size_t>(i)];
+    }
+    std::size_t cell(Offset of_chunk, Offset level) const {
+        return static_cast<std::size_t>(of_chunk * n_levels() + level);
+    }
+
+    TraversalOptions options_;
+    TreeTables tables_;
+    Separation separation_;
+    NearRows near_;
+    bool periodic_ = false, has_close_ = false;
+    Base sources_, targets_, source_parents_, target_parents_;
+    std::vector<Offset> n_near_, n_close_;  ///< [targets]: entries of list 1, of 3 close
+    /// [chunk][level] of list 3: how many, then where the chunk begins.
+    std::vector<Offset> smaller_entries_, smaller_rows_;
+    std::vector<Plan> plans_;
+    Report report_;
+    Stopwatch watch_;
+    double ms_near_ = 0, ms_count_ = 0;
+};
+
+}  // namespace connectivity::detail
