@@ -116,11 +116,10 @@ conn_status conn_boundaries_update(conn_boundaries* boundaries, conn_map* map,
         const GhostOptions ghosts = read_ghost_options(how);
         auto& handle = Registry::instance().get<conn_map>(map, "map");
         work_on(handle, "boundaries", [&] {
-            const MapOptions options = options_of(handle);
-            if (options.active.size() > 0)
+            if (handle.names_active)
                 throw Error(Status::argument,
                             "the option active of the map must be NULL: it cannot know the ghosts");
-            ours.update(*handle.map, nodes, options, ghosts);
+            ours.update(*handle.map, nodes, options_of(handle, nodes), ghosts);
         });
     });
 }

@@ -62,15 +62,18 @@ typedef struct conn_map_options {
     const uint8_t* active; /**< [n_active], 0 or 1 by slot: only active nodes have neighbours
                                 in their rows, and every pair has an active node. Rows keep
                                 their numbers. NULL: all are active */
-    int64_t n_active;      /**< nodes of all lists of the rebuild; 0 with NULL */
+    int64_t n_active;      /**< nodes of all lists of the rebuild, also where these are 0; 0
+                                  with NULL */
     const uint8_t* interactions; /**< [n_lists][n_lists] symmetric, 0 or 1: which lists see each
                                       other. NULL: all do */
     int64_t n_interactions;      /**< n_lists * n_lists of the rebuild; 0 with NULL */
     int32_t index_base;          /**< 0 or 1, the number of the first node: nodes and slots that go
                                       in or out count from it, and a slot is list_offset[list] +
                                       node. Positions count from 0: offsets, ranks, rows, pairs,
-                                      lists; numbers in texts, too. With 1, views are copies that
-                                      the map keeps. Chosen by conn_map_create for good */
+                                      lists; numbers in texts, too, and owners of ghosts, which
+                                      belong to lists of nodes and not to a map. With 1, views are
+                                      copies that the map keeps. Chosen by conn_map_create for
+                                      good */
     int32_t reserved_3;          /**< 0 */
 } conn_map_options;
 #define CONN_MAP_OPTIONS_INIT                                                             \

@@ -19,13 +19,19 @@ std::uint64_t next_number() {
     return ++last;
 }
 
+MapOptions options_with_budget(const conn_map& map) {
+    MapOptions options = map.options;
+    if (options.budget.bytes == 0) options.budget.bytes = map.context_budget;
+    return options;
+}
+
 const ConnectivityMap& map_of(const conn_map* handle) {
     return *Registry::instance().get<const conn_map>(handle, "map").map;
 }
 
 /// Whether the lists of the map were made with the options that the next rebuild will have.
 bool has_same_options(const conn_map& map) {
-    MapOptions next = options_of(map);
+    MapOptions next = options_with_budget(map);
     const ConstView<std::uint8_t> active = std::exchange(next.active, {}),
                                   before = map.map->layout().active();
     return map.map->options() == next && std::equal(active.data(), active.data() + active.size(),
@@ -42,10 +48,13 @@ conn_map::conn_map(const conn_context& context, IndexBase index_base)
 
 namespace connectivity::capi {
 
-MapOptions options_of(const conn_map& map) {
-    MapOptions options = map.options;
-    if (options.budget.bytes == 0) options.budget.bytes = map.context_budget;
-    return options;
+MapOptions options_of(const conn_map& map, std::span<const NodeList> lists) {
+    Offset n = 0;
+    for (const NodeList& list : lists) n += list.n();
+    if (map.names_active && map.options.active.size() == 0 && n > 0)
+        throw Error(Status::argument, "options->n_active = 0, must be " + std::to_string(n) +
+                                          ", one for each node, where active is not NULL");
+    return options_with_budget(map);
 }
 
 std::vector<NodeList> read_lists(conn_nodes* const* lists, std::int32_t n_lists) {
@@ -76,6 +85,7 @@ conn_status conn_map_create(conn_context* context, const conn_map_options* optio
         if (map == nullptr) throw Error(Status::null, "map is NULL");
         auto made = std::make_unique<conn_map>(in, read_index_base(options, "options"));
         made->options = read_options(options);
+        made->names_active = names_active(options);
         *map = Registry::instance().add(std::move(made));
     });
 }
@@ -87,8 +97,10 @@ conn_status conn_map_destroy(conn_map** map) {
 conn_status conn_map_rebuild(conn_map* map, conn_nodes* const* lists, int32_t n_lists) {
     return guarded_with_runtime(__func__, [&] {
         auto& ours = Registry::instance().get<conn_map>(map, "map");
-        work_on(ours, "rebuild",
-                [&] { ours.map->rebuild(read_lists(lists, n_lists), options_of(ours)); });
+        work_on(ours, "rebuild", [&] {
+            const std::vector<NodeList> nodes = read_lists(lists, n_lists);
+            ours.map->rebuild(nodes, options_of(ours, nodes));
+        });
     });
 }
 
@@ -150,8 +162,8 @@ conn_status conn_map_estimate(const conn_map* map, conn_nodes* const* lists, int
     return guarded_with_runtime(__func__, [&] {
         const auto& ours = Registry::instance().get<const conn_map>(map, "map");
         conn_estimate out = read_struct(estimate, conn_estimate CONN_ESTIMATE_INIT, "estimate");
-        const MapEstimate found =
-            connectivity::estimate(read_lists(lists, n_lists), options_of(ours));
+        const std::vector<NodeList> nodes = read_lists(lists, n_lists);
+        const MapEstimate found = connectivity::estimate(nodes, options_of(ours, nodes));
         out.n_entries = found.n_entries;
         out.n_pairs = found.n_pairs;
         out.bytes = found.bytes;

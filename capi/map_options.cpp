@@ -51,9 +51,6 @@ ListOrder read_order(std::int32_t order) {
 void check_flags(const std::uint8_t* flags, std::int64_t n, std::int64_t limit,
                  const std::string& name) {
     check_count(flags, n, limit, "options->" + name, "options->n_" + name);
-    if (flags != nullptr && n == 0)
-        throw Error(Status::argument,
-                    "options->n_" + name + " = 0, must be more where " + name + " is not NULL");
     for (std::int64_t k = 0; k < n; ++k)
         if (flags[k] > 1)
             throw Error(Status::argument, "options->" + name + "[" + std::to_string(k) + "] = " +
@@ -75,6 +72,9 @@ void read_arrays(const conn_map_options& o, MapOptions& options) {
     check_flags(o.active, o.n_active, max_slots, "active");
     check_flags(o.interactions, o.n_interactions, std::int64_t{max_handles} * max_handles,
                 "interactions");
+    if (o.interactions != nullptr && o.n_interactions == 0)
+        throw Error(Status::argument,
+                    "options->n_interactions = 0, must be more where interactions is not NULL");
     if (o.n_active > 0) {
         const auto active = allocate<std::uint8_t>("capi/active", o.n_active);
         std::copy_n(o.active, o.n_active, active.data());
@@ -84,7 +84,7 @@ void read_arrays(const conn_map_options& o, MapOptions& options) {
 }
 
 /// What no rebuild could do.
-void check_combination(const MapOptions& options) {
+void check_combination(const MapOptions& options, bool names_active) {
     const bool intersects = options.intersection != IntersectionKind::none;
     if (options.mode != SearchMode::gather_scatter &&
         (options.pairs || options.overlap || intersects))
@@ -93,7 +93,7 @@ void check_combination(const MapOptions& options) {
                                            : options.overlap ? "overlap = 1"
                                                              : "intersection") +
                                           " needs options->mode = CONN_GATHER_SCATTER");
-    if (options.active.size() > 0 && (options.overlap || intersects))
+    if (names_active && (options.overlap || intersects))
         throw Error(Status::argument, std::string("options->") +
                                           (options.overlap ? "overlap = 1" : "intersection") +
                                           " needs all nodes active, options->active = NULL");
@@ -155,8 +155,13 @@ MapOptions connectivity::capi::read_options(const conn_map_options* given) {
                                           ", must be 0 or in [1e-100, 1e100]");
     options.skin = o.skin;
     read_arrays(o, options);
-    check_combination(options);
+    check_combination(options, o.active != nullptr);
     return options;
+}
+
+bool connectivity::capi::names_active(const conn_map_options* given) {
+    return given != nullptr &&
+           read_struct(given, conn_map_options CONN_MAP_OPTIONS_INIT, "options").active != nullptr;
 }
 
 conn_status conn_map_options_init(conn_map_options* options, size_t size) {
@@ -175,6 +180,7 @@ conn_status conn_map_set_options(conn_map* map, const conn_map_options* options)
                         "counts from " +
                             std::to_string(ours.base.out(0)));
         next.exclude = ours.options.exclude;
+        ours.names_active = names_active(options);
         ours.options = std::move(next);
     });
 }

@@ -72,7 +72,8 @@ Offset pinned_bytes(const conn_map& map) {
 }
 
 Offset memory_now(const conn_map& map) {
-    const Offset bytes = held_bytes(map) + pinned_bytes(map);
+    const Offset held = held_bytes(map), bytes = held + pinned_bytes(map);
+    map.held_when_noted = held;
     map.high_water = std::max(map.high_water, bytes);
     return bytes;
 }
@@ -82,6 +83,13 @@ void note_memory(const conn_map& map) noexcept {
         memory_now(map);
     } catch (...) {  // counted next time
     }
+}
+
+// Views of old lists become fewer until the next rebuild or patch, which is noted: unless the map
+// itself holds more, no more than was noted is held.
+void note_acquired(const conn_map& map) noexcept try {
+    if (held_bytes(map) > map.held_when_noted) memory_now(map);
+} catch (...) {  // counted next time
 }
 
 void log_failure(const conn_map& map, const char* work, const char* text) noexcept try {

@@ -24,6 +24,9 @@ Offset memory_now(const conn_map& map);
 /// grown, when nothing may fail any more.
 void note_memory(const conn_map& map) noexcept;
 
+/// The same after a view was acquired, at a cost that does not depend on how many there are.
+void note_acquired(const conn_map& map) noexcept;
+
 /// Lines about a piece of work that failed, or succeeded. That there is no memory for a line says
 /// nothing about the work, so they are then left out.
 void log_failure(const conn_map& map, const char* work, const char* text) noexcept;

@@ -74,10 +74,10 @@ View<Slot> read_owners(const conn_array& array, const NodeList& list) {
     const auto copy = allocate<Slot>("nodes/owners", owner.size());
     for (Offset g = 0; g < owner.size(); ++g) {
         if (owner[g] < -1 || owner[g] >= list.n_internal())
-            throw Error(Status::argument, "owner[" + std::to_string(g) +
-                                              "] = " + std::to_string(owner[g]) +
-                                              ", must be -1 or an internal node, in [0, " +
-                                              std::to_string(list.n_internal()) + ")");
+            throw Error(Status::argument,
+                        "owner[" + std::to_string(g) + "] = " + std::to_string(owner[g]) +
+                            ", must be -1 or an internal node, counted from 0, in [0, " +
+                            std::to_string(list.n_internal()) + ")");
         copy(g) = static_cast<Slot>(owner[g]);
     }
     return copy;

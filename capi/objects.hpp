@@ -50,11 +50,13 @@ struct conn_map final : connectivity::capi::Handle {
     const connectivity::capi::IndexBase base;
     const std::shared_ptr<const connectivity::capi::Log> log;
     const std::int64_t context_budget;
-    connectivity::MapOptions options;                                 ///< of the next rebuild
+    connectivity::MapOptions options;  ///< of the next rebuild
+    bool names_active = false;         ///< the host gave active nodes, perhaps none
     std::optional<connectivity::ConnectivityMap> map{std::in_place};  ///< none after Kokkos stopped
     connectivity::RowPairs row_pairs;  ///< of the last sum along rows
     mutable connectivity::capi::BasedLists based;
-    mutable connectivity::Offset high_water = 0;  ///< bytes
+    mutable connectivity::Offset high_water = 0;       ///< bytes
+    mutable connectivity::Offset held_when_noted = 0;  ///< bytes without those of old views
 
     conn_map(const conn_context& context, connectivity::capi::IndexBase index_base);
     const char* kind() const noexcept override { return "a map"; }
@@ -106,8 +108,12 @@ IndexBase read_index_base(const conn_map_options* given, const std::string& name
 /// unsupported | memory}.
 MapOptions read_options(const conn_map_options* given);
 
-/// Options of the next rebuild, the context's budget where the map has none of its own.
-MapOptions options_of(const conn_map& map);
+/// Whether active nodes are given: on a rank without nodes, an array of none.
+bool names_active(const conn_map_options* given);
+
+/// Options of the next rebuild, the context's budget where the map has none of its own. Throws
+/// Error{argument} if an array of no active nodes stands beside lists that have some.
+MapOptions options_of(const conn_map& map, std::span<const NodeList> lists);
 
 /// The lists of the host, as the C++ side takes them. Throws Error{argument | too_many | null |
 /// handle}.

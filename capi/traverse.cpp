@@ -92,7 +92,7 @@ conn_status conn_map_traverse(conn_map* map, conn_nodes* const* lists, int32_t n
                 throw Error(Status::argument,
                             "what = " + std::to_string(what) + ", must be CONN_ROWS or CONN_PAIRS");
             if (callback == nullptr) throw Error(Status::null, "callback is NULL");
-            const MapOptions options = options_of(ours);
+            const MapOptions options = options_of(ours, nodes);
             BlockCallback blocks(callback, user_data, ours.base);
             if (what == CONN_ROWS)
                 ours.map->for_each_row(nodes, options, blocks);

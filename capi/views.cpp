@@ -36,7 +36,7 @@ void* hand_over(const conn_map& map, std::unique_ptr<Pin> pin) {
     pin->map_number = map.number;
     pin->generation = map.map->generation();
     Pin* const owner = Registry::instance().add(std::move(pin));
-    note_memory(map);
+    note_acquired(map);
     return owner;
 }
 

@@ -224,8 +224,10 @@ TEST_F(CapiLeftOut, options_outside_their_range_are_refused) {
         fails(refused([](Options& o) { o.reserved_2 = 1; }), CONN_E_UNSUPPORTED, {"reserved_2"}));
     EXPECT_TRUE(
         fails(refused([](Options& o) { o.n_active = 3; }), CONN_E_NULL, {"active is NULL", "3"}));
-    EXPECT_TRUE(
-        fails(refused([](Options& o) { o.active = flags; }), CONN_E_ARGUMENT, {"n_active = 0"}));
+    EXPECT_TRUE(fails(refused([](Options& o) { o.interactions = flags; }), CONN_E_ARGUMENT,
+                      {"n_interactions = 0"}));
+    EXPECT_TRUE(fails(refused([](Options& o) { o.active = flags, o.overlap = 1; }), CONN_E_ARGUMENT,
+                      {"overlap", "active"}));
     EXPECT_TRUE(fails(refused([](Options& o) { o.active = flags, o.n_active = -1; }),
                       CONN_E_ARGUMENT, {"n_active = -1"}));
     EXPECT_TRUE(fails(refused([](Options& o) { o.active = flags, o.n_active = 4; }),
@@ -240,6 +242,25 @@ TEST_F(CapiLeftOut, options_outside_their_range_are_refused) {
     ASSERT_TRUE(ok(refused([](Options& o) { o.interactions = flags, o.n_interactions = 2; })));
     EXPECT_TRUE(fails(built.rebuild(), CONN_E_ARGUMENT, {"interactions has 2", "4"}));
     EXPECT_EQ(read_lists(map), before);
+}
+
+TEST(CapiActive, an_array_of_none_is_legal_for_lists_without_nodes_and_for_no_others) {
+    const Context context;
+    const std::uint8_t none[] = {0};
+    conn_map_options options = CONN_MAP_OPTIONS_INIT;
+    options.active = none;
+    const Map map(context, options);
+    const Nodes empty(context, 3, NodeSet{}), some(context, 3, random_nodes(3, 20, 1));
+    conn_estimate estimate = CONN_ESTIMATE_INIT;
+    EXPECT_TRUE(ok(map.rebuild({empty.handle})));
+    EXPECT_TRUE(ok(conn_map_estimate(map.handle, &empty.handle, 1, &estimate)));
+    const std::vector<std::string> words{"n_active = 0", "20"};
+    EXPECT_TRUE(fails(map.rebuild({empty.handle, some.handle}), CONN_E_ARGUMENT, words));
+    EXPECT_TRUE(
+        fails(conn_map_estimate(map.handle, &some.handle, 1, &estimate), CONN_E_ARGUMENT, words));
+    EXPECT_EQ(map.generation(), 1u);
+    ASSERT_TRUE(ok(conn_map_set_options(map.handle, nullptr)));
+    EXPECT_TRUE(ok(map.rebuild({some.handle})));
 }
 
 /// Calls the library where it must not.

@@ -78,6 +78,24 @@ TEST(CapiMemory, old_views_count_once_until_they_are_released_and_the_high_water
     EXPECT_EQ(memory_of(map).high_water, now + pinned);
 }
 
+TEST(CapiMemory, what_an_acquired_view_adds_beside_old_views_is_in_the_high_water) {
+    const Context context;
+    const Built built(context, 3, {random_nodes(3, 2000, 1)});
+    conn_map* const map = built.map.handle;
+    std::vector<conn_rows_view> old(3, conn_rows_view CONN_ROWS_VIEW_INIT);
+    for (conn_rows_view& view : old)
+        ASSERT_TRUE(ok(conn_map_rows_acquire(map, CONN_SPACE_HOST, &view)));
+    ASSERT_TRUE(ok(built.rebuild()));
+    const Memory before = memory_of(map);
+    conn_pairs_view expanded = CONN_PAIRS_VIEW_INIT;
+    ASSERT_TRUE(ok(conn_map_pairs_acquire(map, CONN_SPACE_HOST, CONN_PAIRS_EXPAND, &expanded)));
+    for (conn_rows_view& view : old) ASSERT_TRUE(ok(conn_map_rows_release(&view)));
+    const Memory after = memory_of(map);
+    EXPECT_EQ(after.high_water, before.bytes + 4 * info_of(map).n_pairs);
+    EXPECT_LT(after.bytes, after.high_water);
+    EXPECT_TRUE(ok(conn_map_pairs_release(&expanded)));
+}
+
 TEST(CapiMemory, copies_of_views_from_one_are_in_it_and_base_zero_pays_nothing) {
     const Context context;
     for (const int base : {0, 1}) {
