@@ -35,6 +35,12 @@ void check_kind(const conn_array& a, Numbers numbers, const std::string& name) {
     if (a.space != CONN_SPACE_HOST && a.space != CONN_SPACE_HOST_PINNED)
         refuse(Status::argument, name + ".space", a.space, "one of CONN_SPACE_*");
     check_dtype(a.dtype, numbers, name);
+    for (int d = 0; d < -a.ndim && d < 2; ++d)
+        if (const auto size = static_cast<Offset>(element_size(a.dtype)); a.stride[d] % size != 0)
+            throw Error(Status::argument, name + ": elements are " + std::to_string(a.stride[d]) +
+                                              " bytes apart, which is no whole number of elements "
+                                              "of " +
+                                              std::to_string(size) + " bytes");
     if (a.ndim != 1 && a.ndim != 2) refuse(Status::argument, name + ".ndim", a.ndim, "1 or 2");
 }
 

@@ -96,6 +96,8 @@ contains
         call expect(.not. c_associated(nodes%handle), 'no handle is made by an error')
         call expect_error(conn_nodes_create(context, '   ', 3, extent, nodes), CONN_E_ARGUMENT, &
                           'name', 'a blank name')
+        call expect_error(conn_nodes_create(context, 'gas'//c_null_char//'dust', 3, extent, nodes), &
+                          CONN_E_ARGUMENT, 'character 4', 'a NUL inside a name')
         call expect_ok(conn_nodes_create(context, 'gas  ', 3, extent, nodes), 'a list is created')
         call expect_ok(conn_map_create(context, map), 'a map is created')
         call expect_ok(conn_set_h(nodes, x, h), 'an infinite position is no error yet')

@@ -27,6 +27,8 @@ program main
         call every_form_of_the_nodes_gives_the_same_lists()
     case ('single_precision_gives_the_lists_of_the_same_values')
         call single_precision_gives_the_lists_of_the_same_values()
+    case ('steps_of_no_whole_elements_are_refused_by_their_bytes')
+        call steps_of_no_whole_elements_are_refused_by_their_bytes()
     case ('one_and_two_dimensions_have_their_own_forms')
         call one_and_two_dimensions_have_their_own_forms()
     case ('round_tensors_give_the_lists_of_scalars')

@@ -103,6 +103,21 @@ contains
         end subroutine rebuilt
     end subroutine single_precision_gives_the_lists_of_the_same_values
 
+    subroutine steps_of_no_whole_elements_are_refused_by_their_bytes()
+        use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int8_t, c_loc
+        type(world) :: w
+        integer(c_int8_t), target :: bytes(64)
+        real(c_double), pointer :: first, second
+        call make_world(w)
+        call c_f_pointer(c_loc(bytes(1)), first)
+        call c_f_pointer(c_loc(bytes(13)), second)
+        call expect_error(conn_nodes_set_h(w%nodes, 4_c_int64_t, [conn_array_vector(w%h(:4)), &
+                                           conn_array_vector(w%h(:4)), conn_array_vector(w%h(:4))], &
+                                           conn_array_strided(first, second, 4_c_int64_t)), &
+                          CONN_E_ARGUMENT, 'h: elements are 12 bytes apart', 'a step of 12 bytes')
+        call end_world(w)
+    end subroutine steps_of_no_whole_elements_are_refused_by_their_bytes
+
     subroutine one_and_two_dimensions_have_their_own_forms()
         type(conn_context) :: context
         type(conn_nodes) :: line, plane
