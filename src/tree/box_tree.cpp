@@ -8,6 +8,7 @@
 
 #include "check_input.hpp"
 #include "grow.hpp"
+#include "mesh_tree.hpp"
 #include "restrict_levels.hpp"
 #include "sort_particles.hpp"
 
@@ -154,6 +155,15 @@ void BoxTree::build(const TreeInput& input, const TreeOptions& options) {
             if (input.dim == 3) impl_->build<Real, 3>(input, options);
         };
         input.coordinates == CoordinateType::float32 ? build(0.0f) : build(0.0);
+    });
+}
+
+void BoxTree::build(const MeshBoxes& boxes) {
+    run_kernels("box tree", [&] {
+        TreeArrays next = mesh_tree(boxes);
+        impl_->arrays = std::move(next);
+        impl_->view = impl_->arrays.view();
+        impl_->report = Report();
     });
 }
 

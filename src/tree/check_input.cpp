@@ -1,42 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check_input.hpp"
 
-#include <limits>
 #include <string>
+
+#include "check_array.hpp"
 
 namespace connectivity::tree_detail {
 
 namespace {
 
 [[noreturn]] void refuse(const std::string& text) { throw Error(Status::argument, text); }
-
-void check_stride(const std::string& what, Offset stride, Offset n) {
-    const Offset most = n > 0 ? (Offset{1} << 58) / n : Offset{1} << 58;
-    if (stride < 1 || stride > most)
-        refuse(what + " is " + std::to_string(stride) + ", must be in [1, " + std::to_string(most) +
-               "] elements");
-}
-
-void check_pointer(const std::string& what, const void* pointer, CoordinateType type) {
-    const std::size_t size = type == CoordinateType::float32 ? sizeof(float) : sizeof(double);
-    if (pointer == nullptr) throw Error(Status::null, what + " is null, and there are particles");
-    if (reinterpret_cast<std::uintptr_t>(pointer) % size != 0)
-        refuse(what + " is not aligned to its " + std::to_string(size) + " bytes an element");
-}
-
-void check_array(const std::string& kind, const ParticleArray& array, const TreeInput& input) {
-    if (array.n < 0 || array.n > max_slots)
-        throw Error(array.n < 0 ? Status::argument : Status::too_many,
-                    "the number of " + kind + "s is " + std::to_string(array.n) +
-                        ", must be in [0, " + std::to_string(max_slots) + "]");
-    if (array.n == 0) return;
-    check_pointer("the positions of " + kind + "s", array.positions, input.coordinates);
-    if (array.n > 1) check_stride(kind + " particle_stride", array.particle_stride, array.n);
-    if (input.dim > 1) check_stride(kind + " axis_stride", array.axis_stride, input.dim);
-    if (array.radii == nullptr) return;
-    check_pointer("the radii of " + kind + "s", array.radii, input.coordinates);
-    if (array.n > 1) check_stride(kind + " radius_stride", array.radius_stride, array.n);
-}
 
 template <class Enum>
 void check_enum(const char* what, Enum value, Enum last) {
@@ -94,8 +67,8 @@ void check_arguments(const TreeInput& input, const TreeOptions& options) {
     check_enum("extent_norm", options.extent_norm, ExtentNorm::l2);
     check_enum("coincident", options.coincident, Coincident::leaf);
     check_enum("hulls", options.hulls, Hulls::never);
-    check_array("source", input.sources, input);
-    if (input.targets) check_array("target", *input.targets, input);
+    check_array("source", input.sources, input.dim, input.coordinates);
+    if (input.targets) check_array("target", *input.targets, input.dim, input.coordinates);
     const Offset n = input.sources.n + (input.targets ? input.targets->n : 0);
     if (n > max_slots)
         throw Error(Status::too_many, "there are " + std::to_string(n) +

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include <connectivity/base/report.hpp>
+#include <connectivity/tree/mesh_boxes.hpp>
 #include <connectivity/tree/tree_input.hpp>
 
 namespace connectivity {
@@ -27,6 +28,11 @@ public:
     /// coincident particles), nonfinite, support (a radius), box (not a cube, a particle outside),
     /// too_many (2^31 particles or boxes, more than 254 levels), budget, memory.
     void build(const TreeInput& input, const TreeOptions& options);
+
+    /// The tree of these boxes, without particles. Levels, centres and the other table (parents or
+    /// children) are derived. Throws Error: argument (a box out of order, with two parents or none,
+    /// sizes), null, box, too_many, memory.
+    void build(const MeshBoxes& boxes);
 
     /// Of the last build; empty before.
     const TreeView& view() const;
