@@ -17,8 +17,7 @@ conn_status conn_map_set_coupling(conn_map* map, const double* values, int64_t n
             throw Error(Status::argument, "n_pairs = " + std::to_string(n_pairs) + ", must be " +
                                               std::to_string(pairs.size()) +
                                               " as in the pair list");
-        const auto numbers = pairs.view();
-        pairs.set_coupling([&](Slot i, Slot j) { return values[numbers.find(i, j)]; });
+        pairs.set_coupling(std::span(values, static_cast<std::size_t>(n_pairs)));
         note_memory(ours);
     });
 }

@@ -18,8 +18,10 @@ using Slots = Kokkos::RangePolicy<HostExec, Kokkos::IndexType<Offset>>;
 
 bool is_allowed(double value) { return value >= 0 && value <= 1; }
 
-/// values[k] of all pairs; returns the first pair whose value is not allowed, or their number.
-Offset evaluate(const HalfRows& pairs, const NodeCoupling& f, double* values) {
+/// fill(row, first, last) writes values[first .. last) of a half row. Returns the first pair whose
+/// value is not allowed, or their number.
+template <class Fill>
+Offset evaluate(const HalfRows& pairs, const Fill& fill, const double* values) {
     const Offset n_rows = static_cast<Offset>(pairs.offsets.size()) - 1;
     const auto n_pairs = static_cast<Offset>(pairs.j.size());
     Offset first_bad = n_pairs;
@@ -31,7 +33,7 @@ Offset evaluate(const HalfRows& pairs, const NodeCoupling& f, double* values) {
             const Offset first = pairs.offsets(row), last = pairs.offsets(row + 1);
             if (first == last || failed->any()) return;
             try {
-                f(pairs.node(row), {pairs.j.data() + first, pairs.j.data() + last}, values + first);
+                fill(row, first, last);
             } catch (...) {
                 failed->keep();
                 return;
@@ -64,17 +66,34 @@ Offset PairCoupling::bytes() const {
     return static_cast<Offset>((values_.size() + spare_.size() + pending_.size()) * sizeof(double));
 }
 
-void PairCoupling::set(const HalfRows& pairs, const NodeCoupling& f) {
+template <class Fill>
+void PairCoupling::fill_all(const HalfRows& pairs, const Fill& fill) {
     const auto n = static_cast<Offset>(pairs.j.size());
     ensure_capacity(spare_, label, n);
     shim::outside_parallel_region([&] {
         start_runtime();  // for this thread: it may be another one than the builder's
-        const Offset bad = evaluate(pairs, f, spare_.data());
+        double* const out = spare_.data();
+        const auto fill_row = [&](Offset row, Offset first, Offset last) {
+            fill(row, first, last, out);
+        };
+        const Offset bad = evaluate(pairs, fill_row, out);
         if (bad < n) throw_out_of_range(pairs, bad, spare_(bad));
     });
     std::swap(values_, spare_);
     n_ = n;
     exists_ = true;
+}
+
+void PairCoupling::set(const HalfRows& pairs, const NodeCoupling& f) {
+    fill_all(pairs, [&](Offset row, Offset first, Offset last, double* out) {
+        f(pairs.node(row), {pairs.j.data() + first, pairs.j.data() + last}, out + first);
+    });
+}
+
+void PairCoupling::set(const HalfRows& pairs, std::span<const double> values) {
+    fill_all(pairs, [&](Offset, Offset first, Offset last, double* out) {
+        std::copy(values.data() + first, values.data() + last, out + first);
+    });
 }
 
 void PairCoupling::set(const HalfRows& pairs, Offset k, double value) {

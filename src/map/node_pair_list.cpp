@@ -34,6 +34,15 @@ void NodePairList::set_coupling(NodeCoupling f) {
     coupling_.set({half_rows_.offsets(), half_rows_.values(), slots_}, f);
 }
 
+void NodePairList::set_coupling(std::span<const double> values) {
+    require_built("set_coupling");
+    if (std::ssize(values) != size())
+        throw Error(Status::argument, "set_coupling: " + std::to_string(values.size()) +
+                                          " values, must be " + std::to_string(size()) +
+                                          " as in the pair list");
+    coupling_.set({half_rows_.offsets(), half_rows_.values(), slots_}, values);
+}
+
 void NodePairList::set_coupling(Offset k, double value) {
     require_built("set_coupling");
     coupling_.set({half_rows_.offsets(), half_rows_.values(), slots_}, k, value);

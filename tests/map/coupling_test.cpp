@@ -41,6 +41,38 @@ TEST(Coupling, it_is_one_and_takes_no_memory_until_set) {
     EXPECT_EQ(pairs.coupling(5), 1);
 }
 
+TEST(Coupling, an_array_sets_every_pair_in_list_order) {
+    for (const ListOrder order : {ListOrder::slot, ListOrder::key})
+        for (std::uint64_t seed = 0; seed < 100; ++seed) {
+            const Case c = random_pairs(seed);
+            MapOptions options = map_options(c);
+            options.pairs = true, options.order = order;
+            ConnectivityMap map;
+            map.rebuild(node_lists(c), options);
+            NodePairList& pairs = map.pairs();
+            std::vector<double> values(static_cast<std::size_t>(pairs.size()));
+            for (std::size_t k = 0; k < values.size(); ++k)
+                values[k] = static_cast<double>(k % 97) / 97;
+            pairs.set_coupling(std::span<const double>(values));
+            for (std::size_t k = 0; k < values.size(); ++k)
+                ASSERT_EQ(pairs.coupling(static_cast<Offset>(k)), values[k]) << c.text;
+            std::vector<double> longer = values;
+            longer.push_back(0);
+            EXPECT_TRUE(fails_with(
+                Status::argument,
+                {std::to_string(longer.size()) + " values", std::to_string(values.size())},
+                [&] { pairs.set_coupling(std::span<const double>(longer)); }));
+            if (values.empty()) continue;
+            const std::size_t bad = values.size() / 2;
+            std::vector<double> spoilt = values;
+            spoilt[bad] = std::nan(""), spoilt.back() = 2;
+            const std::size_t first = std::min(bad, values.size() - 1);
+            EXPECT_TRUE(fails_with(Status::argument, {"pair " + std::to_string(first), "[0, 1]"},
+                                   [&] { pairs.set_coupling(std::span<const double>(spoilt)); }));
+            EXPECT_EQ(pairs.coupling(0), values[0]);
+        }
+}
+
 TEST(Coupling, a_functor_sets_every_pair) {
     for (std::uint64_t seed = 0; seed < 500; ++seed) {
         const Case c = random_pairs(seed);

@@ -63,6 +63,9 @@ public:
     /// not in [0, 1], Error{memory}, and what f throws.
     void set(const HalfRows& pairs, const NodeCoupling& f);
 
+    /// The same from values [n_pairs], in the order of the pairs: one pass, without a look-up.
+    void set(const HalfRows& pairs, std::span<const double> values);
+
     /// Sets pair k; the others stay (1 where there are none yet). Throws Error{argument},
     /// Error{memory}.
     void set(const HalfRows& pairs, Offset k, double value);
@@ -79,6 +82,9 @@ public:
     void abandon_remap() noexcept { pending_ = {}; }
 
 private:
+    template <class Fill>
+    void fill_all(const HalfRows& pairs, const Fill& fill);
+
     View<double> values_, spare_, pending_;
     Offset n_ = 0, n_pending_ = 0;
     bool exists_ = false;

@@ -135,6 +135,9 @@ public:
     /// Error{argument} for the first pair with a value outside [0, 1], Error{not_built},
     /// Error{memory}, and what f throws; the old coupling then stays.
     void set_coupling(NodeCoupling f);
+    /// The same from values [size()], in the order of this list. Throws Error{argument} for another
+    /// number of them, too.
+    void set_coupling(std::span<const double> values);
     /// Coupling of pair k alone. Throws Error{argument}, Error{not_built}, Error{memory}.
     void set_coupling(Offset k, double value);
     /// Back to 1 for all pairs, without storage.
