@@ -56,6 +56,8 @@ int list_of(const Expected& e, Slot slot) {
 /// A predicate that knows nothing of order: the library asks for (low, high).
 bool odd_sum(Slot i, Slot j) { return (i + 3 * j) % 3 == 1; }
 
+struct Tired {};
+
 std::shared_ptr<const PairPredicate> odd_sums() {
     return std::make_shared<const PairPredicate>(odd_sum);
 }
@@ -206,6 +208,33 @@ TEST(LeftOut, bad_requests_are_refused_and_change_nothing) {
     options.overlap = true;
     map.rebuild(node_lists(c), options);
     EXPECT_TRUE(fails_with(Status::argument, {"overlap"}, [&] { map.remove_pairs(odd_sum); }));
+}
+
+TEST(LeftOut, what_a_predicate_throws_comes_out_and_the_lists_stay) {
+    const Case c = cloud(400, 3);
+    const std::vector<NodeList> lists = node_lists(c);
+    for (const ListOrder order : {ListOrder::slot, ListOrder::key}) {
+        MapOptions options;
+        options.order = order;
+        ConnectivityMap map;
+        map.rebuild(lists, options);
+        const auto rows = map.rows();
+        const Offset n_pairs = map.pairs().size();
+        options.exclude = std::make_shared<const PairPredicate>([](Slot i, Slot j) -> bool {
+            if ((i + j) % 2 == 0) throw Tired();
+            return true;
+        });
+        EXPECT_THROW(map.rebuild(lists, options), Tired);
+        EXPECT_THROW(map.for_each_row(lists, options, [](int, Slot, std::span<const Slot>) {}),
+                     Tired);
+        options.exclude = std::make_shared<const PairPredicate>(
+            [](Slot, Slot) -> bool { throw std::bad_alloc(); });
+        EXPECT_TRUE(fails_with(Status::memory, {}, [&] { map.rebuild(lists, options); }));
+        EXPECT_EQ(map.generation(), 1u);
+        EXPECT_EQ(map.rows().slots.data(), rows.slots.data());
+        EXPECT_EQ(map.rows().size(), rows.size());
+        EXPECT_EQ(map.pairs().size(), n_pairs);
+    }
 }
 
 }  // namespace

@@ -26,7 +26,9 @@ enum class IntersectionKind {
 };
 
 /// true: the pair of these slots is left out. Called with i < j from several threads at once, more
-/// than once for a pair: it must answer the same each time, and not throw.
+/// than once for a pair: it must answer the same each time. If it throws, the call that asked it
+/// throws the same, of several threads the first one's, but Error{memory} for std::bad_alloc; all
+/// lists, orders and the generation stay as they were.
 using PairPredicate = std::function<bool(Slot i, Slot j)>;
 
 struct MapOptions {
