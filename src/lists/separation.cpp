@@ -66,7 +66,8 @@ Separation::Separation(const TreeView& tree, const TraversalOptions& options)
             require("bounding_box_max", particles.bounding_box_max.size(), n);
         }
         return Side{particles.bounding_box_min.data(), particles.bounding_box_max.data(),
-                    particles.have_extent() ? 1 + tree.stick_out_factor : 1.0};
+                    particles.have_extent() ? 1 + tree.stick_out_factor : 1.0,
+                    particles.have_extent()};
     };
     targets_ = side(tree.targets);
     sources_ = sources_have_extent_ ? side(tree.sources) : Side{};
@@ -95,6 +96,9 @@ Separation::Vector Separation::between(BoxId target, BoxId source, ImageCode ima
 double Separation::distance(const Side& side, BoxId box, const Vector& to) const {
     const double r = half_width(box) * side.enlargement;
     double far = 0;
+    // Only of a periodic root box particles stick out by more than the factor, by any length.
+    if (crit_ != FromSepSmallerCrit::precise_linf && side.has_extent && levels_[box] == 0)
+        return -std::numeric_limits<double>::infinity();
     if (crit_ == FromSepSmallerCrit::static_l2) {
         for (const double x : to) far += x * x;
         return std::sqrt(far) - ball_ * r;

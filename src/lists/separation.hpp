@@ -31,6 +31,7 @@ private:
     struct Side {
         const double *hull_min = nullptr, *hull_max = nullptr;
         double enlargement = 1;  // 1 + s, 1 for points
+        bool has_extent = false;
     };
 
     bool test_smaller(BoxId target, BoxId source, ImageCode image) const;

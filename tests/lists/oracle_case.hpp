@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <connectivity/base/runtime.hpp>
 #include <connectivity/lists/traversal.hpp>
 
 #include "io/plain_hdf5.hpp"
@@ -58,6 +59,7 @@ inline std::string oracle_path(const std::string& name) {
 class OracleCase {
 public:
     explicit OracleCase(const std::string& path) : file_(PlainFile::open(path)) {
+        start_runtime();
         try {
             params_ = nlohmann::json::parse(file_.strings("/", "params").at(0));
         } catch (const std::runtime_error&) {  // a3 has none
