@@ -25,8 +25,9 @@
  * conn_last_error, texts and versions (CONN_E_CALLBACK); nor wait for a thread that does.
  *
  * Hosts include this header alone. Its parts are files beside it, each complete in itself;
- * connectivity_boundary.h (ghosts behind boundaries) and connectivity_query.h (single nodes,
- * checks) are not among them: they are experimental, for hosts that ask for them.
+ * connectivity_boundary.h (ghosts behind boundaries), connectivity_query.h (single nodes, checks),
+ * connectivity_tree.h (box trees) and connectivity_lists.h (interaction lists of them) are not
+ * among them: they are experimental, for hosts that ask for them.
  */
 #ifndef CONNECTIVITY_H
 #define CONNECTIVITY_H

@@ -72,7 +72,14 @@ enum {
     CONN_STRUCT_REPORT_ENTRY = 7,
     CONN_STRUCT_INTERSECTION_VIEW = 8,
     CONN_STRUCT_BOUNDARY_NODES = 9,
-    CONN_STRUCT_ESTIMATE = 10
+    CONN_STRUCT_ESTIMATE = 10,
+    CONN_STRUCT_TREE_OPTIONS = 11,
+    CONN_STRUCT_TREE_INPUT = 12,
+    CONN_STRUCT_TREE_VIEW = 13,
+    CONN_STRUCT_BOX_LIST_VIEW = 14,
+    CONN_STRUCT_PARTICLES_VIEW = 15,
+    CONN_STRUCT_LISTS_OPTIONS = 16,
+    CONN_STRUCT_CLASSES_VIEW = 17
 };
 /** sizeof of a struct in the library that is loaded, for hosts that mirror the structs in another
  * language; 0 if there is no such struct. */

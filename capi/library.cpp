@@ -4,6 +4,7 @@
 
 #include <connectivity/base/types.hpp>
 
+#include "connectivity_lists.h"
 #include "guard.hpp"
 #include "structs.hpp"
 
@@ -101,6 +102,13 @@ int64_t conn_abi_sizeof(int32_t which) {
         case CONN_STRUCT_INTERSECTION_VIEW: return sizeof(conn_intersection_view);
         case CONN_STRUCT_BOUNDARY_NODES: return sizeof(conn_boundary_nodes);
         case CONN_STRUCT_ESTIMATE: return sizeof(conn_estimate);
+        case CONN_STRUCT_TREE_OPTIONS: return sizeof(conn_tree_options);
+        case CONN_STRUCT_TREE_INPUT: return sizeof(conn_tree_input);
+        case CONN_STRUCT_TREE_VIEW: return sizeof(conn_tree_view);
+        case CONN_STRUCT_BOX_LIST_VIEW: return sizeof(conn_box_list_view);
+        case CONN_STRUCT_PARTICLES_VIEW: return sizeof(conn_particles_view);
+        case CONN_STRUCT_LISTS_OPTIONS: return sizeof(conn_lists_options);
+        case CONN_STRUCT_CLASSES_VIEW: return sizeof(conn_classes_view);
         default: return 0;
     }
 }

@@ -1,34 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "guard.hpp"
 #include "map_work.hpp"
-#include "structs.hpp"
+#include "view_structs.hpp"
 
 using namespace connectivity;
 using namespace connectivity::capi;
 
 namespace {
-
-/// The host's struct, ready to be filled. Throws Error{argument} if it pins something already.
-template <class T>
-T read_view(const T* view, const T& empty) {
-    const T given = read_struct(view, empty, "view");
-    if (given.owner != nullptr)
-        throw Error(
-            Status::argument,
-            "view->owner is set: the view was not initialised, or still holds another view");
-    T ours = empty;
-    ours.struct_size = given.struct_size;
-    return ours;
-}
-
-template <class Pin, class T>
-void release(T* view, const T& empty) {
-    if (view == nullptr) return;
-    T given = read_struct(view, empty, "view");
-    auto* pin = static_cast<Pin*>(given.owner);
-    Registry::instance().destroy(&pin, "view->owner");
-    write_struct(view, empty, given.struct_size);
-}
 
 /// Hands the pin over to the registry, with whose map and generation it is.
 template <class Pin>
@@ -123,7 +101,8 @@ conn_status conn_map_overlap_acquire(const conn_map* map, int32_t space, conn_ro
 }
 
 conn_status conn_map_rows_release(conn_rows_view* view) {
-    return guarded(__func__, [&] { release<RowsPin>(view, conn_rows_view CONN_ROWS_VIEW_INIT); });
+    return guarded(__func__,
+                   [&] { release_view<RowsPin>(view, conn_rows_view CONN_ROWS_VIEW_INIT); });
 }
 
 conn_status conn_map_pairs_acquire(conn_map* map, int32_t space, int32_t flags,
@@ -158,7 +137,7 @@ conn_status conn_map_pairs_acquire(conn_map* map, int32_t space, int32_t flags,
 
 conn_status conn_map_pairs_release(conn_pairs_view* view) {
     return guarded(__func__,
-                   [&] { release<PairsPin>(view, conn_pairs_view CONN_PAIRS_VIEW_INIT); });
+                   [&] { release_view<PairsPin>(view, conn_pairs_view CONN_PAIRS_VIEW_INIT); });
 }
 
 conn_status conn_map_intersection_acquire(const conn_map* map, int32_t space,
@@ -186,6 +165,6 @@ conn_status conn_map_intersection_acquire(const conn_map* map, int32_t space,
 
 conn_status conn_map_intersection_release(conn_intersection_view* view) {
     return guarded(__func__, [&] {
-        release<IntersectionPin>(view, conn_intersection_view CONN_INTERSECTION_VIEW_INIT);
+        release_view<IntersectionPin>(view, conn_intersection_view CONN_INTERSECTION_VIEW_INIT);
     });
 }

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! The C interface for Fortran 2008: connectivity.h, and the experimental connectivity_boundary.h and
-! connectivity_query.h.
+! The C interface for Fortran 2008: connectivity.h, and the experimental connectivity_boundary.h,
+! connectivity_query.h, connectivity_tree.h and connectivity_lists.h.
 !
 ! Every function of the headers is here under its name, and means what the header says, with the
 ! types of Fortran: an array brings its length, texts are character strings, truth is logical, what
@@ -41,6 +41,8 @@ module connectivity
     include 'c_report.inc'
     include 'c_boundary.inc'
     include 'c_query.inc'
+    include 'c_tree.inc'
+    include 'c_lists.inc'
     include 'interfaces.inc'
 
 contains
@@ -57,5 +59,8 @@ contains
     include 'traverse.inc'
     include 'boundary.inc'
     include 'query.inc'
+    include 'tree.inc'
+    include 'tree_pointers.inc'
+    include 'lists.inc'
 
 end module connectivity

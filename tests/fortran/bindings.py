@@ -14,7 +14,7 @@ import pathlib
 import re
 import sys
 
-PARTS = "base nodes map views fields traverse report boundary query".split()
+PARTS = "base nodes map views fields traverse report boundary query tree lists".split()
 # C type: Fortran type, bytes, name of the kind
 NUMBERS = {
     "int32_t": ("integer(c_int32_t)", 4, "c_int32_t"),
@@ -28,7 +28,7 @@ CALLBACKS = ("conn_log_callback", "conn_pair_predicate", "conn_pair_function", "
 # Outputs that are one number; what else is not const is an array.
 SCALARS = set(
     "n_threads n n_internal needed drift generation bytes high_water count n_offsets n_slots "
-    "n_pairs n_components value n_failed length".split())
+    "n_pairs n_components value n_failed length scratch_bytes total".split())
 MAY_BE_NULL = {("conn_map_common_neighbours", "lists")}  # of the arrays of handles
 RENAMED = {"H": "tensor"}  # Fortran does not tell h from H
 ARRAY_DEFAULTS = {"ndim": "1", "stride": "1"}  # of conn_array, which has no macro
@@ -162,7 +162,9 @@ def part_text(capi, part, structs):
 
 
 C_TEST = """#include <connectivity_boundary.h>
+#include <connectivity_lists.h>
 #include <connectivity_query.h>
+#include <connectivity_tree.h>
 int64_t offset_in_c(int32_t k) {{
     static const size_t offsets[] = {{{offsets}}};
     return (int64_t)offsets[k];
