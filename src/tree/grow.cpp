@@ -199,19 +199,10 @@ private:
             box.n_own = total[own];
             box.first_child = static_cast<std::int32_t>(children.size());
             place(box.start, total, first, last);
-            std::int32_t start = box.start + box.n_own;
-            for (int c = 0; c < n_children; ++c) {
-                if (options_.adaptive && child_weights[c] <= options_.limit) final_[s] |= 1u << c;
-                if (total[c] == 0 && !options_.keep_empty) continue;
-                box.children = static_cast<std::uint8_t>(box.children | 1 << c);
-                children.push_back({.start = start,
-                                    .count = total[c],
-                                    .n_own = total[c],
-                                    .parent = selected_[s],
-                                    .number = static_cast<std::uint8_t>(c)});
-                weights.push_back(child_weights[c]);
-                start += total[c];
-            }
+            if (options_.adaptive)
+                for (int c = 0; c < n_children; ++c)
+                    if (child_weights[c] <= options_.limit) final_[s] |= 1u << c;
+            append_children(selected_[s], total, child_weights, children, weights);
         }
         check_number(children.size());
         n_boxes_ += static_cast<Offset>(children.size());
@@ -219,6 +210,23 @@ private:
         if (children.empty()) return false;
         tree_.levels.push_back(std::move(children));
         return true;
+    }
+
+    void append_children(std::int32_t parent, const Counts& counts, const Weights& child_weights,
+                         RawLevel& children, std::vector<std::int64_t>& weights) {
+        RawBox& box = boxes()[parent];
+        std::int32_t start = box.start + box.n_own;
+        for (int c = 0; c < n_children; ++c) {
+            if (counts[c] == 0 && !options_.keep_empty) continue;
+            box.children = static_cast<std::uint8_t>(box.children | 1 << c);
+            children.push_back({.start = start,
+                                .count = counts[c],
+                                .n_own = counts[c],
+                                .parent = parent,
+                                .number = static_cast<std::uint8_t>(c)});
+            weights.push_back(child_weights[c]);
+            start += counts[c];
+        }
     }
 
     void check_number(std::size_t n_new) const {
