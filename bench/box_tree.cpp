@@ -4,55 +4,17 @@
 // of the particles targets with radii 2^U(-12,-2) that may stick out by a quarter).
 //
 //     box_tree --benchmark_filter=plummer/1000000
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include <benchmark/benchmark.h>
 
 #include <connectivity/base/runtime.hpp>
 #include <connectivity/tree/box_tree.hpp>
 
-#include <support/random.hpp>
+#include "tree_clouds.hpp"
 
 namespace {
 
 using namespace connectivity;
-using test::Random;
-
-using Point = std::array<double, 3>;
-
-double normal(Random& random) {
-    return std::sqrt(-2 * std::log(1 - random.uniform())) *
-           std::cos(2 * std::numbers::pi * random.uniform());
-}
-
-Point uniform(Random& random) { return {random.uniform(), random.uniform(), random.uniform()}; }
-
-Point plummer(Random& random) {
-    double radius = 0;
-    do radius = 1 / std::sqrt(std::pow(1 - random.uniform(), -2.0 / 3) - 1);
-    while (!(radius < 50));
-    const double z = random.uniform(-1, 1), angle = 2 * std::numbers::pi * random.uniform(),
-                 rho = std::sqrt(1 - z * z);
-    return {radius * rho * std::cos(angle), radius * rho * std::sin(angle), radius * z};
-}
-
-Point clusters(Random& random) {
-    const bool first = random.chance(0.5);
-    const double sigma = first ? 1e-3 : 1e-2, at = first ? 0.25 : 0.75;
-    return {at + sigma * normal(random), at + sigma * normal(random), at + sigma * normal(random)};
-}
-
-std::vector<double> cloud(Point (*point)(Random&), Offset n, std::uint64_t seed) {
-    Random random(seed);
-    std::vector<double> x;
-    for (Offset i = 0; i < n; ++i) {
-        const Point p = point(random);
-        x.insert(x.end(), p.begin(), p.end());
-    }
-    return x;
-}
+using namespace connectivity::bench;
 
 void run(benchmark::State& state, const TreeInput& input, TreeOptions options) {
     options.max_particles_in_box = 64;
@@ -76,9 +38,7 @@ void points(benchmark::State& state, Point (*point)(Random&)) {
 
 void radii(benchmark::State& state) {
     const Offset n = state.range(0) / 2;
-    const auto x = cloud(plummer, n, 1), y = cloud(plummer, n, 2);
-    std::vector<double> r(n);
-    for (Offset i = 0; i < n; ++i) r[i] = std::exp2(-12 + 10 * test::u01(3, i));
+    const auto x = cloud(plummer, n, 1), y = cloud(plummer, n, 2), r = wide_radii(n);
     TreeInput input;
     input.sources = ParticleArray::interleaved(x.data(), n, 3);
     input.targets = ParticleArray::interleaved(y.data(), n, 3);

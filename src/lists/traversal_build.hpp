@@ -70,6 +70,7 @@ private:
         return static_cast<std::size_t>(of_chunk * n_levels() + level);
     }
 
+    Stopwatch watch_;  // the first member: it times the making of the others
     TraversalOptions options_;
     TreeTables tables_;
     Separation separation_;
@@ -81,7 +82,6 @@ private:
     std::vector<Offset> smaller_entries_, smaller_rows_;
     std::vector<Plan> plans_;
     Report report_;
-    Stopwatch watch_;
     double ms_near_ = 0, ms_count_ = 0;
 };
 
