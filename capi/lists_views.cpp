@@ -81,7 +81,7 @@ void take_translations(const FMMTraversalInfo& lists, bool per_level, ClassesPin
     pin.level_starts = info.from_sep_siblings_translation_classes_level_starts();
     pin.vectors = info.from_sep_siblings_translation_class_to_distance_vector();
     out.n_classes = info.nfrom_sep_siblings_translation_classes();
-    out.n_levels = static_cast<std::int32_t>(pin.level_starts.size()) - 1;
+    out.n_levels = per_level ? lists.nlevels() : 1;
 }
 
 void take_rotations(const FMMTraversalInfo& lists, ClassesPin& pin, conn_classes_view& out) {
