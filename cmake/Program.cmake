@@ -12,8 +12,10 @@ endif()
 find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(nlohmann_json 3 REQUIRED)
 
-target_link_libraries(connectivity_io PUBLIC hdf5::hdf5 fmt::fmt)
+target_link_libraries(connectivity_io PUBLIC hdf5::hdf5 fmt::fmt
+    PRIVATE nlohmann_json::nlohmann_json)
 target_link_libraries(connectivity_program PUBLIC hdf5::hdf5 fmt::fmt CLI11::CLI11)
 
 add_library(connectivity_app STATIC $<TARGET_OBJECTS:connectivity_io>

@@ -49,6 +49,14 @@ inline hid_t native_type<double>() {
     return H5T_NATIVE_DOUBLE;
 }
 template <>
+inline hid_t native_type<float>() {
+    return H5T_NATIVE_FLOAT;
+}
+template <>
+inline hid_t native_type<std::uint8_t>() {
+    return H5T_NATIVE_UINT8;
+}
+template <>
 inline hid_t native_type<std::int32_t>() {
     return H5T_NATIVE_INT32;
 }
@@ -102,10 +110,11 @@ public:
     void write_part(const std::string& name, const T* data, Offset first, Offset count) {
         write_raw(name, native_type<T>(), data, first, count);
     }
+    /// A shape without extents is that of a single value.
     template <class T>
     void write(const std::string& name, const T* data, const Shape& shape) {
         create<T>(name, shape);
-        write_part(name, data, 0, shape.at(0));
+        write_part(name, data, 0, shape.empty() ? 1 : shape[0]);
     }
 
     bool has_attribute(const std::string& name) const;

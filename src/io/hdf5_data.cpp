@@ -107,6 +107,11 @@ void Group::write_raw(const std::string& name, hid_t type, const void* source, O
     const Handle data = dataset(name);
     const Handle space(H5Dget_space(data), H5Sclose);
     const Shape whole = shape(name);
+    if (whole.empty()) {
+        if (H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, source) < 0)
+            fail_io(name, "cannot write");
+        return;
+    }
     std::vector<hsize_t> start(whole.size(), 0), extent(whole.begin(), whole.end());
     start.at(0) = static_cast<hsize_t>(first);
     extent.at(0) = static_cast<hsize_t>(count);

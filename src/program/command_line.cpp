@@ -14,6 +14,7 @@
 #include <connectivity/base/runtime.hpp>
 
 #include "program/commands.hpp"
+#include "program/lists_options.hpp"
 
 namespace connectivity::program {
 
@@ -126,16 +127,23 @@ void add_cloud(CLI::App& app, CloudOptions& o) {
         ->type_name("N");
 }
 
+struct Options {
+    PairsOptions pairs;
+    ListsOptions lists;
+    CloudOptions cloud;
+};
+
 /// Runs what was asked for; library errors pass through.
-void dispatch(const CLI::App& app, const PairsOptions& pairs, const CloudOptions& cloud) {
-    if (app.got_subcommand("pairs")) run_pairs(pairs);
-    if (app.got_subcommand("cloud")) run_cloud(cloud);
+void dispatch(const CLI::App& app, const Options& options) {
+    if (app.got_subcommand("pairs")) run_pairs(options.pairs);
+    if (app.got_subcommand("lists")) run_lists(options.lists);
+    if (app.got_subcommand("cloud")) run_cloud(options.cloud);
     if (app.got_subcommand("info")) run_info();
 }
 
-int guarded(const CLI::App& app, const PairsOptions& pairs, const CloudOptions& cloud) {
+int guarded(const CLI::App& app, const Options& options) {
     try {
-        dispatch(app, pairs, cloud);
+        dispatch(app, options);
         return 0;
     } catch (const Error& e) {
         return report(e.status(), e.what());
@@ -149,24 +157,26 @@ int guarded(const CLI::App& app, const PairsOptions& pairs, const CloudOptions& 
 }  // namespace
 
 int run(int argc, const char* const* argv) {
-    CLI::App app("Who interacts with whom? Neighbour rows and pairs of any particle snapshot.",
-                 "connectivity");
+    CLI::App app(
+        "Who interacts with whom? Neighbour rows, pairs and interaction lists of any particle "
+        "snapshot.",
+        "connectivity");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("connectivity ") + CONNECTIVITY_VERSION);
     app.footer(exit_status_help());
-    PairsOptions pairs;
-    CloudOptions cloud;
-    add_pairs(app, pairs);
-    add_cloud(app, cloud);
+    Options options;
+    add_pairs(app, options.pairs);
+    add_lists_command(app, options.lists);
+    add_cloud(app, options.cloud);
     app.add_subcommand("info", "Versions, backends and build of this program");
-    pairs.command = cloud.command = joined(argc, argv);
+    options.pairs.command = options.lists.command = options.cloud.command = joined(argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
         return report(Status::argument, std::string(e.what()) + " (see connectivity --help)");
     }
-    const int status = guarded(app, pairs, cloud);
+    const int status = guarded(app, options);
     stop_runtime();
     return status;
 }

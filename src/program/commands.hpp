@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <connectivity/lists/traversal_options.hpp>
 #include <connectivity/map/map_options.hpp>
+#include <connectivity/tree/tree_input.hpp>
 
 namespace connectivity::program {
 
@@ -28,6 +30,28 @@ struct PairsOptions {
     std::string command;  ///< as it was typed; goes into the result file
 };
 void run_pairs(const PairsOptions& options);
+
+/// What is not given is as the file says, or the default.
+struct ListsOptions {
+    std::string file;
+    std::vector<std::string> lists;  ///< in this order; empty: all
+    std::string out, plot;           ///< empty: none
+    bool open = false, tree_only = false;
+    std::optional<Offset> step;
+    std::optional<TreeKind> kind;
+    std::optional<std::int32_t> leaf;
+    std::optional<Coincident> coincident;
+    std::optional<double> stick_out;
+    std::optional<ExtentNorm> extent_norm;
+    std::optional<int> n_away;
+    std::optional<FromSepSmallerCrit> criterion;
+    std::optional<Offset> min_sources;
+    std::optional<BoxId> box;  ///< to draw; default: telling_target_box
+    int n_threads = 0;
+    std::uint64_t budget = 0;
+    std::string command;
+};
+void run_lists(const ListsOptions& options);
 
 void run_info();
 

@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include <connectivity/base/runtime.hpp>
-#include <connectivity/io/pending_file.hpp>
 #include <connectivity/io/result_file.hpp>
 
 #include "program/commands.hpp"
@@ -16,24 +15,13 @@
 #include "program/cull.hpp"
 #include "program/density.hpp"
 #include "program/describe.hpp"
+#include "program/outputs.hpp"
 #include "program/plot.hpp"
 #include "program/units.hpp"
 
 namespace connectivity::program {
 
 namespace {
-
-/// Finds a bad place or a missing program before the work and not after it.
-void check_outputs(const PairsOptions& options) {
-    for (const auto& path : {options.out, options.plot}) {
-        std::error_code code;
-        if (path.empty()) continue;
-        if (std::filesystem::equivalent(path, options.file, code))
-            throw Error(Status::argument, fmt::format("'{}' would overwrite the input", path));
-        const PendingFile place(path);
-    }
-    if (!options.plot.empty()) require_plotting(options.plot);
-}
 
 class PairsRun {
 public:
@@ -210,7 +198,8 @@ void PairsRun::draw() {
 }  // namespace
 
 void run_pairs(const PairsOptions& options) {
-    check_outputs(options);
+    check_outputs(options.file, {options.out, options.plot});
+    if (!options.plot.empty()) require_plotting(options.plot);
     start_runtime({.n_threads = options.n_threads});
     PairsRun(options).run();
 }

@@ -59,6 +59,10 @@ inline hid_t h5_type<double>() {
     return H5T_NATIVE_DOUBLE;
 }
 template <>
+inline hid_t h5_type<std::uint8_t>() {
+    return H5T_NATIVE_UINT8;
+}
+template <>
 inline hid_t h5_type<int>() {
     return H5T_NATIVE_INT;
 }
@@ -159,6 +163,23 @@ public:
 
     bool has(const std::string& name) const {
         return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+    }
+
+    /// Of what is in the root, ascending.
+    std::vector<std::string> names() const {
+        H5G_info_t info{};
+        good(H5Gget_info(file_, &info));
+        std::vector<std::string> names;
+        for (hsize_t k = 0; k < info.nlinks; ++k) {
+            const auto find = [&](char* text, std::size_t size) {
+                return good(H5Lget_name_by_idx(file_, ".", H5_INDEX_NAME, H5_ITER_INC, k, text,
+                                               size, H5P_DEFAULT));
+            };
+            std::string name(static_cast<std::size_t>(find(nullptr, 0)), '\0');
+            find(name.data(), name.size() + 1);
+            names.push_back(name);
+        }
+        return names;
     }
 
     Extents extents(const std::string& name) const {
