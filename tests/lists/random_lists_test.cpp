@@ -217,14 +217,14 @@ void check_case(std::uint64_t seed, bool periodic) {
 }
 
 TEST(RandomLists, obey_definitions_coverage_and_separation) {
-    for (int seed = 0; seed < n_cases(6000); ++seed) {
+    for (int seed = 0; seed < n_cases(3000); ++seed) {
         check_case(1000 + seed, false);
         if (HasFatalFailure()) return;
     }
 }
 
 TEST(RandomLists, obey_them_in_periodic_boxes_for_every_image) {
-    for (int seed = 0; seed < n_cases(6000) / 10; ++seed) {
+    for (int seed = 0; seed < n_cases(3000) / 10; ++seed) {
         check_case(77000 + seed, true);
         if (HasFatalFailure()) return;
     }
