@@ -18,6 +18,13 @@ contains
         type(conn_intersection_view) :: intersection
         type(conn_boundary_nodes) :: boundary_nodes
         type(conn_estimate) :: estimate
+        type(conn_tree_options) :: tree_options
+        type(conn_tree_input) :: tree_input
+        type(conn_tree_view) :: tree
+        type(conn_box_list_view) :: box_list
+        type(conn_particles_view) :: particles
+        type(conn_lists_options) :: lists_options
+        type(conn_classes_view) :: classes
         call same(c_sizeof(array), c_sizeof(array), CONN_STRUCT_ARRAY)
         call same(c_sizeof(context_options), context_options%struct_size, &
                   CONN_STRUCT_CONTEXT_OPTIONS)
@@ -29,7 +36,14 @@ contains
         call same(c_sizeof(intersection), intersection%struct_size, CONN_STRUCT_INTERSECTION_VIEW)
         call same(c_sizeof(boundary_nodes), boundary_nodes%struct_size, CONN_STRUCT_BOUNDARY_NODES)
         call same(c_sizeof(estimate), estimate%struct_size, CONN_STRUCT_ESTIMATE)
-        call expect(conn_abi_sizeof(CONN_STRUCT_ESTIMATE + 1) == 0, 'there is no other struct')
+        call same(c_sizeof(tree_options), tree_options%struct_size, CONN_STRUCT_TREE_OPTIONS)
+        call same(c_sizeof(tree_input), tree_input%struct_size, CONN_STRUCT_TREE_INPUT)
+        call same(c_sizeof(tree), tree%struct_size, CONN_STRUCT_TREE_VIEW)
+        call same(c_sizeof(box_list), box_list%struct_size, CONN_STRUCT_BOX_LIST_VIEW)
+        call same(c_sizeof(particles), particles%struct_size, CONN_STRUCT_PARTICLES_VIEW)
+        call same(c_sizeof(lists_options), lists_options%struct_size, CONN_STRUCT_LISTS_OPTIONS)
+        call same(c_sizeof(classes), classes%struct_size, CONN_STRUCT_CLASSES_VIEW)
+        call expect(conn_abi_sizeof(CONN_STRUCT_CLASSES_VIEW + 1) == 0, 'there is no other struct')
     end subroutine structs_have_the_sizes_of_c
 
     subroutine same(bytes, struct_size, which)
@@ -44,6 +58,8 @@ contains
     subroutine defaults_are_those_of_c()
         type(conn_map_options) :: ours, of_c
         type(conn_context_options) :: context_ours, context_of_c
+        type(conn_tree_options) :: tree_ours, tree_of_c
+        type(conn_lists_options) :: lists_ours, lists_of_c
         integer(c_int8_t), parameter :: garbage = 77
         of_c = transfer(spread(garbage, 1, int(c_sizeof(ours))), of_c)
         call expect_ok(conn_map_options_init(of_c), 'options of a map are initialised')
@@ -53,6 +69,14 @@ contains
         call expect_ok(conn_context_options_init(context_of_c), 'options of a context')
         call expect(all(transfer(context_ours, [garbage]) == transfer(context_of_c, [garbage])), &
                     'default options of a context are byte for byte those of C')
+        tree_of_c = transfer(spread(garbage, 1, int(c_sizeof(tree_ours))), tree_of_c)
+        call expect_ok(conn_tree_options_init(tree_of_c), 'options of a tree')
+        call expect(all(transfer(tree_ours, [garbage]) == transfer(tree_of_c, [garbage])), &
+                    'default options of a tree are byte for byte those of C')
+        lists_of_c = transfer(spread(garbage, 1, int(c_sizeof(lists_ours))), lists_of_c)
+        call expect_ok(conn_lists_options_init(lists_of_c), 'options of interaction lists')
+        call expect(all(transfer(lists_ours, [garbage]) == transfer(lists_of_c, [garbage])), &
+                    'default options of interaction lists are byte for byte those of C')
     end subroutine defaults_are_those_of_c
 
     subroutine the_module_is_of_the_version_of_the_library()

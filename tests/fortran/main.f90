@@ -8,6 +8,7 @@ program main
     use map_test
     use fields_test
     use experimental_test
+    use trees_test
     implicit none
     character(100) :: law
 
@@ -73,6 +74,12 @@ program main
         call queries_find_what_brute_force_finds()
     case ('validation_names_every_law')
         call validation_names_every_law()
+    case ('a_line_of_points_has_the_boxes_and_lists_of_the_definitions')
+        call a_line_of_points_has_the_boxes_and_lists_of_the_definitions()
+    case ('every_target_meets_every_source_once')
+        call every_target_meets_every_source_once()
+    case ('lookups_find_leaves_balls_and_targets')
+        call lookups_find_leaves_balls_and_targets()
     case ('nothing_works_after_a_shutdown')
         call nothing_works_after_a_shutdown()
     case default
