@@ -50,7 +50,8 @@ TreeView header_of(const TreeInput& input, const TreeOptions& options,
     for (int d = 0; d < Dim; ++d) {
         tree.periodic[d] = options.periodic[d];
         tree.bounding_box_min[d] = frame.lo[d];
-        tree.bounding_box_max[d] = static_cast<double>(frame.lo[d]) + tree.root_extent;
+        tree.bounding_box_max[d] =
+            static_cast<double>(frame.lo[d]) + static_cast<double>(frame.side[d]);
     }
     tree.stick_out_factor = options.stick_out_factor.value_or(0);
     if (any_radii(input)) tree.extent_norm = options.extent_norm;

@@ -33,9 +33,19 @@ inline double floor_of(double v) {
 template <class Real, int Dim>
 struct Frame {
     Real lo[Dim];
-    Real extent;  ///< side of the root box
+    Real side[Dim];  ///< upper face minus lower face, each rounded: may differ in the last bits
+    Real extent;     ///< side of the root box before that rounding
 
-    double scaled(Real x, int d) const { return static_cast<double>((x - lo[d]) / extent); }
+    /// The cube of side `length` above `lo`.
+    void set_cube(Real length) {
+        extent = length;
+        for (int d = 0; d < Dim; ++d) {
+            const Real hi = lo[d] + length;
+            side[d] = hi - lo[d];
+        }
+    }
+
+    double scaled(Real x, int d) const { return static_cast<double>((x - lo[d]) / side[d]); }
 
     /// `n_bits` bits of a scaled coordinate, those of levels (level, level + n_bits].
     static std::uint64_t bits(double t, int level, int n_bits) {
@@ -58,7 +68,7 @@ struct Frame {
     double center(Real x, int d, int level) const {
         const double cells = power_of_two(level);
         const double cell = std::min(floor_of(scaled(x, d) * cells), cells - 1);
-        return lo[d] + static_cast<double>(extent) * ((cell + 0.5) * power_of_two(-level));
+        return lo[d] + static_cast<double>(side[d]) * ((cell + 0.5) * power_of_two(-level));
     }
 };
 
@@ -69,23 +79,25 @@ struct StickOut {
     double factor = 0;
     ExtentNorm norm = ExtentNorm::linf;
 
-    double half_width(int level) const {
-        return static_cast<double>(frame.extent) * power_of_two(-(level + 1));
+    double half_width(int level, int d) const {
+        return static_cast<double>(frame.side[d]) * power_of_two(-(level + 1));
     }
 
     /// Does particle i stick out of the box at `level` that holds its centre?
     bool sticks_out(const Particles<Real, Dim>& particles, Offset i, int level) const {
-        const double radius = particles.radius(i), room = (1 + factor) * half_width(level);
+        const double radius = particles.radius(i);
         double distance2 = 0;
         for (int d = 0; d < Dim; ++d) {
             const Real position = particles.position(i, d);
-            const double x = position, c = frame.center(position, d, level);
+            const double x = position, c = frame.center(position, d, level),
+                         room = (1 + factor) * half_width(level, d);
             if (norm == ExtentNorm::linf && (x + radius >= c + room || x - radius < c - room))
                 return true;
             distance2 += (x - c) * (x - c);
         }
         if (norm == ExtentNorm::linf) return false;
-        const double reach = std::sqrt(distance2) + radius;
+        const double reach = std::sqrt(distance2) + radius,
+                     room = (1 + factor) * half_width(level, 0);
         return reach * reach >= Dim * room * room;
     }
 

@@ -103,7 +103,8 @@ Frame<Real, Dim> host_box(const Particles<Real, Dim>& particles, const Bounds<Re
         const double lo = options.bounding_box->lo[d], up = options.bounding_box->hi[d];
         frame.lo[d] = static_cast<Real>(lo);
         hi[d] = static_cast<Real>(up);
-        const double width = static_cast<double>(hi[d] - frame.lo[d]);
+        frame.side[d] = hi[d] - frame.lo[d];
+        const double width = static_cast<double>(frame.side[d]);
         if (!(width > 0) || !std::isfinite(width))
             throw Error(Status::box, "bounding_box on axis " + std::to_string(d) + " is [" +
                                          number(lo) + ", " + number(up) +
@@ -138,7 +139,7 @@ Frame<Real, Dim> box_around(const Bounds<Real, Dim>& bounds) {
                             std::abs(static_cast<double>(bounds.hi[d]))});
     }
     // Stretched at the top, so that no particle lies on an upper face.
-    frame.extent = static_cast<Real>(widest > 0 ? widest * (1 + 1e-4) : largest);
+    frame.set_cube(static_cast<Real>(widest > 0 ? widest * (1 + 1e-4) : largest));
     if (!(frame.extent > 0) || !std::isfinite(frame.extent))
         throw Error(Status::box, "the particles with their radii reach over " + number(widest) +
                                      ", the widest side of the root box must be finite");
@@ -154,7 +155,7 @@ Frame<Real, Dim> root_box(const Particles<Real, Dim>& particles, const TreeOptio
     if (options.bounding_box) return host_box(particles, bounds, options);
     if (particles.n() > 0) return box_around(bounds);
     Frame<Real, Dim> unit{};
-    unit.extent = 1;
+    unit.set_cube(1);
     return unit;
 }
 

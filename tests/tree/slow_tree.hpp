@@ -75,10 +75,16 @@ private:
         for (const int i : ids) sum += case_.weight(i);
         return sum;
     }
+    /// Upper minus lower face, as rounded in the host's precision.
+    double side(int d) const {
+        if (case_.type == CoordinateType::float64) return lo_[d] + extent_ - lo_[d];
+        const float lo = static_cast<float>(lo_[d]), hi = lo + static_cast<float>(extent_);
+        return hi - lo;
+    }
     double scaled(int i, int d) const {
         const double x = case_.x[i * case_.dim + d];
-        if (case_.type == CoordinateType::float64) return (x - lo_[d]) / extent_;
-        return (static_cast<float>(x) - static_cast<float>(lo_[d])) / static_cast<float>(extent_);
+        if (case_.type == CoordinateType::float64) return (x - lo_[d]) / side(d);
+        return (static_cast<float>(x) - static_cast<float>(lo_[d])) / static_cast<float>(side(d));
     }
     /// Bits of a scaled coordinate down to a level, as a cell number.
     double cell(int i, int d, int level) const {
@@ -92,18 +98,21 @@ private:
     }
     bool sticks_out(int i, int level) const {
         if (case_.radii.empty()) return false;
-        const double half = std::ldexp(extent_, -level - 1),
-                     room = (1 + *case_.options.stick_out_factor) * half, r = case_.radius(i);
+        const auto room_on = [&](int d) {
+            return (1 + *case_.options.stick_out_factor) * std::ldexp(side(d), -level - 1);
+        };
+        const double r = case_.radius(i);
         double square = 0;
         for (int d = 0; d < case_.dim; ++d) {
             const double x = case_.x[i * case_.dim + d],
-                         c = lo_[d] + extent_ * std::ldexp(cell(i, d, level) + 0.5, -level);
+                         c = lo_[d] + side(d) * std::ldexp(cell(i, d, level) + 0.5, -level),
+                         room = room_on(d);
             if (case_.options.extent_norm == ExtentNorm::linf &&
                 (x + r >= c + room || x - r < c - room))
                 return true;
             square += (x - c) * (x - c);
         }
-        const double reach = std::sqrt(square) + r;
+        const double reach = std::sqrt(square) + r, room = room_on(0);
         return case_.options.extent_norm == ExtentNorm::l2 &&
                reach * reach >= case_.dim * room * room;
     }
