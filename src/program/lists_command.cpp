@@ -17,6 +17,7 @@
 #include "program/lists_picture.hpp"
 #include "program/outputs.hpp"
 #include "program/plot.hpp"
+#include "program/units.hpp"
 
 namespace connectivity::program {
 
@@ -62,6 +63,7 @@ private:
     Console console_;
     bool is_case_;
     ListsInput input_;
+    std::string length_unit_;
     BoxTree tree_;
     FMMTraversalInfo lists_;
 };
@@ -80,6 +82,7 @@ void ListsRun::read_snapshot() {
     const auto reader = open_snapshot(options_.file, {{}, options_.step, options_.open});
     const SnapshotInfo& info = reader->info();
     Console::line(describe_input(info));
+    length_unit_ = length_unit(info.units);
     std::vector<NodeList> nodes;
     console_.phase("reading", [&] {
         for (const auto& name : chosen_lists(info, options_.lists))
@@ -166,9 +169,9 @@ void ListsRun::write() {
 
 void ListsRun::draw() {
     console_.phase("drawing " + options_.plot, [&] {
-        const BoxId box = options_.box.value_or(telling_target_box(lists_));
-        const std::string name = std::filesystem::path(options_.file).filename().string();
-        draw_lists(options_.plot, lists_scene(lists_, box), name);
+        const BoxId box = options_.box ? *options_.box : telling_target_box(lists_);
+        const auto name = std::filesystem::path(options_.file).filename();
+        draw_lists(options_.plot, lists_scene(lists_, box), {name.string(), length_unit_});
     });
 }
 

@@ -66,8 +66,8 @@ std::string rectangle(const Window& window, double x, double y, double half, dou
 
 class Picture {
 public:
-    Picture(const ListsScene& scene, const ScratchFolder& folder)
-        : scene_(scene), tree_(scene.tree), folder_(folder) {
+    Picture(const ListsScene& scene, const ListsPictureText& text, const ScratchFolder& folder)
+        : scene_(scene), tree_(scene.tree), text_(text), folder_(folder) {
         for (int d = 0; d < tree_.dim; ++d)
             center_[static_cast<std::size_t>(d)] = tree_.center(d, scene.box);
         for (const auto& listed : scene_.listed)
@@ -76,7 +76,7 @@ public:
                          [](const auto& a, const auto& b) { return a.half_width > b.half_width; });
     }
 
-    std::string script(const std::string& output, const std::string& name);
+    std::string script(const std::string& output);
 
 private:
     static constexpr int height_ = 900;
@@ -85,13 +85,14 @@ private:
 
     Window whole() const;
     Window near() const;
-    std::string preamble(const std::string& output, const std::string& name) const;
+    std::string preamble(const std::string& output) const;
     std::string caption() const;
     std::string legend(double left) const;
     std::string panel(const Window& window, const std::string& title, double left);
     std::string fills(const Window& window, const std::string& prefix) const;
     std::string outlines(const Window& window) const;
     std::string points(const Window& window) const;
+    bool is_periodic() const { return tree_.periodic[0] || tree_.periodic[1]; }
     double panel_width() const { return (top_ - bottom_) * height_ / width_; }
 
     /// Is the box in the slice that is drawn? The lower of two that share a face there is not.
@@ -102,6 +103,7 @@ private:
 
     const ListsScene& scene_;
     const TreeView& tree_;
+    const ListsPictureText& text_;
     const ScratchFolder& folder_;
     std::array<double, 3> center_{};  ///< of the chosen box
     std::vector<ListedBox> drawn_;    ///< large ones first
@@ -114,8 +116,7 @@ Window Picture::whole() const {
     Window window;
     window.x = 0.5 * (tree_.bounding_box_min[0] + tree_.bounding_box_max[0]);
     window.y = 0.5 * (tree_.bounding_box_min[1] + tree_.bounding_box_max[1]);
-    const bool periodic = tree_.periodic[0] || tree_.periodic[1];
-    window.half = (periodic ? 1.53 : 0.51) * tree_.root_extent;
+    window.half = (is_periodic() ? 1.53 : 0.51) * tree_.root_extent;
     return window;
 }
 
@@ -199,9 +200,12 @@ std::string Picture::panel(const Window& window, const std::string& title, doubl
     };
     script += fmt::format("set title {} noenhanced\nset xrange {}\nset yrange {}\n", quoted(title),
                           range(window.x, window.half), range(window.y, window.half));
-    script += window.is_relative ? "set xlabel 'x from the centre of the box, in widths of it'\n"
-                                   "set ylabel 'y' offset 1,0\n"
-                                 : "set xlabel 'x'\nset ylabel 'y' offset 1,0\n";
+    const std::string unit = text_.length_unit.empty() ? "" : " [" + text_.length_unit + "]";
+    script += window.is_relative
+                  ? "set xlabel 'x from the centre of the box, in widths of it'\n"
+                    "set ylabel 'y' offset 1,0\n"
+                  : fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced offset 1,0\n",
+                                quoted("x" + unit), quoted("y" + unit));
     script += "plot " + fills(window, prefix);
     for (const auto& [name, text, style] :
          {std::array<std::string, 3>{"boxes.txt", outlines(window),
@@ -239,12 +243,14 @@ std::string Picture::legend(double left) const {
                                ListRole::bigger_of_ancestor};
     for (const ListRole role : order) {
         const auto k = static_cast<std::size_t>(role);
-        if (!scene_.exists[k]) continue;
+        const bool of_ancestor =
+            role == ListRole::siblings_of_ancestor || role == ListRole::bigger_of_ancestor;
+        if (!scene_.exists[k] || (of_ancestor && scene_.counts[k] == 0)) continue;
         script += fmt::format(", keyentry with boxes lc rgb '{}' fs solid 1.0 noborder title {}",
                               styles[k].colour,
                               quoted(fmt::format("{}  ({})", styles[k].name, scene_.counts[k])));
     }
-    return script + "\n";
+    return script + ", keyentry with boxes lw 1 lc rgb '#8a8a8a' fs empty title 'no sources'\n";
 }
 
 std::string Picture::caption() const {
@@ -259,13 +265,15 @@ std::string Picture::caption() const {
         return listed.is_split && is_own_only(listed.role);
     });
     return fmt::format(
-        "Every source reaches the {} target{} of box {} (level {}) once, by the list that colours "
+        "Every source{} reaches the {} target{} of box {} (level {}) once, by the list that "
+        "colours "
         "its box{}.",
-        n_own, n_own == 1 ? "" : "s", scene_.box, level,
+        is_periodic() ? ", in every image next to the root box," : "", n_own, n_own == 1 ? "" : "s",
+        scene_.box, level,
         hollow ? " (of outlined boxes only sources that are not in a child)" : "");
 }
 
-std::string Picture::preamble(const std::string& output, const std::string& name) const {
+std::string Picture::preamble(const std::string& output) const {
     std::string script = "set encoding utf8\n";
     script += fmt::format(
         "set terminal pngcairo size {},{} enhanced font 'Sans,15' background '#ffffff'\n", width_,
@@ -277,18 +285,18 @@ std::string Picture::preamble(const std::string& output, const std::string& name
     script += fmt::format(
         "set label 1 {} at screen 0.5,0.03 center noenhanced font ',13' textcolor rgb '#555555'\n",
         quoted(caption()));
-    script += fmt::format("set multiplot title {} noenhanced font ',19'\n", quoted(name));
+    script += fmt::format("set multiplot title {} noenhanced font ',19'\n", quoted(text_.title));
     return script;
 }
 
-std::string Picture::script(const std::string& output, const std::string& name) {
+std::string Picture::script(const std::string& output) {
     const Window all = whole(), detail = near();
     const bool two = detail.half < 0.7 * all.half;
-    width_ = two ? 1980 : 1260;
-    const double first = 90.0 / width_, gap = 95.0 / width_;
+    width_ = two ? 2060 : 1320;
+    const double first = 150.0 / width_, gap = 110.0 / width_;
     const std::string slice =
         tree_.dim == 3 ? fmt::format(", slice at z = {:.6g}", center_[2]) : "";
-    std::string text = preamble(output, name);
+    std::string text = preamble(output);
     text += panel(all, fmt::format("{} boxes{}", tree_.n_boxes, slice), first);
     text += "unset label 1\n";
     double right = first + panel_width();
@@ -301,13 +309,13 @@ std::string Picture::script(const std::string& output, const std::string& name) 
 
 }  // namespace
 
-void draw_lists(const std::string& path, const ListsScene& scene, const std::string& name) {
+void draw_lists(const std::string& path, const ListsScene& scene, const ListsPictureText& text) {
     require_plotting(path);
     if (scene.tree.dim == 1)
         throw Error(Status::unsupported, "pictures show trees of 2 or 3 dimensions, this has 1");
     PendingFile file(path);
     const ScratchFolder folder;
-    folder.write("picture.gp", Picture(scene, folder).script(file.temporary(), name));
+    folder.write("picture.gp", Picture(scene, text, folder).script(file.temporary()));
     run_gnuplot(folder, "picture.gp");
     file.commit();
 }

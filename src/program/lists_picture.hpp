@@ -9,9 +9,13 @@
 
 namespace connectivity::program {
 
-/// Draws a PNG of a 2D tree, or of the slice of a 3D tree through the centre of the box; `name` is
-/// the title. Atomic. Throws Error: unsupported (no gnuplot, 1D), file (it failed; with its own
-/// words).
-void draw_lists(const std::string& path, const ListsScene& scene, const std::string& name);
+struct ListsPictureText {
+    std::string title;
+    std::string length_unit;  ///< empty if unknown
+};
+
+/// Draws a PNG of a 2D tree, or of the slice of a 3D tree through the centre of the box. Atomic.
+/// Throws Error: unsupported (no gnuplot, 1D), file (it failed; with its own words).
+void draw_lists(const std::string& path, const ListsScene& scene, const ListsPictureText& text);
 
 }  // namespace connectivity::program
