@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include <connectivity_boundary.h>
+#include <connectivity_lists.h>
 #include <connectivity_query.h>
 
 enum { side = 12, n = side * side, n_pairs = 2 * side * (side - 1) };
@@ -35,6 +36,11 @@ typedef struct host {
     conn_rows_view rows;
     conn_pairs_view pairs;
     conn_intersection_view common;
+    conn_tree* tree;
+    conn_lists* lists;
+    conn_tree_view boxes;
+    conn_box_list_view direct;
+    conn_classes_view classes;
 } host;
 
 /* A square lattice of spacing 1 with supports of 1.2. */
@@ -46,6 +52,19 @@ static conn_status set_nodes(host* h) {
     conn_array lengths = conn_array_vector(&length, n);
     lengths.stride[0] = 0;
     return conn_nodes_set_h(h->nodes, n, &positions, 1, &lengths);
+}
+
+/* A box tree of the lattice. */
+static conn_status build_tree(host* h) {
+    double x[n][2];
+    for (int i = 0; i < n; ++i) x[i][0] = i % side, x[i][1] = i / side;
+    const conn_array positions = conn_array_matrix(&x[0][0], n, 2);
+    conn_tree_input input = CONN_TREE_INPUT_INIT;
+    conn_tree_options options = CONN_TREE_OPTIONS_INIT;
+    input.dim = 2;
+    input.sources = &positions;
+    options.max_particles_in_box = 4;
+    return conn_tree_build(h->tree, &input, &options);
 }
 
 static conn_status rebuild(host* h) {
@@ -76,6 +95,28 @@ static void start_ghosts(host* h) {
                                 sums, 2 * n) == CONN_OK);
 }
 
+/* Interaction lists, with views of all kinds. */
+static void start_lists(host* h) {
+    REQUIRE(conn_tree_create(h->context, &h->tree) == CONN_OK);
+    REQUIRE(conn_lists_create(h->context, &h->lists) == CONN_OK);
+    REQUIRE(build_tree(h) == CONN_OK);
+    REQUIRE(conn_lists_rebuild(h->lists, h->tree, NULL) == CONN_OK);
+    REQUIRE(conn_tree_acquire(h->tree, CONN_SPACE_HOST, &h->boxes) == CONN_OK);
+    REQUIRE(conn_lists_acquire(h->lists, CONN_LIST_NEIGHBOR_SOURCE_BOXES, 0, CONN_SPACE_HOST,
+                               &h->direct) == CONN_OK);
+    REQUIRE(conn_lists_classes_acquire(h->lists, CONN_CLASSES_TRANSLATION, CONN_SPACE_HOST,
+                                       &h->classes) == CONN_OK);
+    REQUIRE(h->boxes.n_sources == n && h->direct.n_entries > 0);
+}
+
+static void finish_lists(host* h) {
+    REQUIRE(conn_tree_destroy(&h->tree) == CONN_OK && h->tree == NULL);
+    REQUIRE(conn_lists_destroy(&h->lists) == CONN_OK && h->lists == NULL);
+    REQUIRE(conn_tree_release(&h->boxes) == CONN_OK && h->boxes.box_flags == NULL);
+    REQUIRE(conn_box_list_release(&h->direct) == CONN_OK && h->direct.lists == NULL);
+    REQUIRE(conn_lists_classes_release(&h->classes) == CONN_OK && h->classes.classes == NULL);
+}
+
 static host start(int n_threads) {
     host h = {NULL,
               NULL,
@@ -86,7 +127,12 @@ static host start(int n_threads) {
               NULL,
               CONN_ROWS_VIEW_INIT,
               CONN_PAIRS_VIEW_INIT,
-              CONN_INTERSECTION_VIEW_INIT};
+              CONN_INTERSECTION_VIEW_INIT,
+              NULL,
+              NULL,
+              CONN_TREE_VIEW_INIT,
+              CONN_BOX_LIST_VIEW_INIT,
+              CONN_CLASSES_VIEW_INIT};
     uint8_t active[n];
     conn_map_options map_options = CONN_MAP_OPTIONS_INIT;
     memset(active, 1, sizeof active);
@@ -104,10 +150,12 @@ static host start(int n_threads) {
     REQUIRE(h.rows.n_entries == 2 * n_pairs);
     REQUIRE(h.pairs.n_pairs == n_pairs);
     start_ghosts(&h);
+    start_lists(&h);
     return h;
 }
 
 static void finish(host* h) {
+    finish_lists(h);
     REQUIRE(conn_map_rows_release(&h->rows) == CONN_OK && h->rows.slots == NULL);
     REQUIRE(conn_map_pairs_release(&h->pairs) == CONN_OK && h->pairs.j == NULL);
     REQUIRE(conn_map_intersection_release(&h->common) == CONN_OK && h->common.slots == NULL);
@@ -128,6 +176,7 @@ static void require_all(host* h, conn_status expected) {
     conn_context* context = NULL;
     conn_map* map = NULL;
     conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
+    conn_tree_view boxes = CONN_TREE_VIEW_INIT;
     conn_estimate estimate = CONN_ESTIMATE_INIT;
     const double one = 1;
     double out = 0;
@@ -143,6 +192,10 @@ static void require_all(host* h, conn_status expected) {
     REQUIRE(conn_map_validate(h->map, &h->nodes, 1, &n_failed, NULL, 0, NULL) == expected);
     REQUIRE(conn_query_update(h->query, &h->nodes, 1, NULL) == expected);
     REQUIRE(conn_query_neighbours(h->query, 0, CONN_GATHER, NULL, 0, &count) == expected);
+    REQUIRE(build_tree(h) == expected);
+    REQUIRE(conn_tree_acquire(h->tree, CONN_SPACE_HOST, &boxes) == expected);
+    REQUIRE(conn_lists_rebuild(h->lists, h->tree, NULL) == expected);
+    REQUIRE(conn_lists_work(h->lists, CONN_WORK_M2L, NULL, 0, &count, NULL) == expected);
     REQUIRE(conn_map_estimate(h->map, &h->nodes, 1, &estimate) == expected);
     REQUIRE(conn_map_memory(h->map, CONN_SPACE_HOST, &count, NULL) == expected);
     REQUIRE(conn_map_rows_copy(h->map, NULL, 0, &count, NULL, 0, &count) == expected);
@@ -166,7 +219,7 @@ static void late_destroy(void) {
 
 static void child(host* h, int n_threads) {
     if (n_threads == 1) {
-        REQUIRE(rebuild(h) == CONN_OK);
+        REQUIRE(rebuild(h) == CONN_OK && build_tree(h) == CONN_OK);
         finish(h);
         _exit(0);
     }
