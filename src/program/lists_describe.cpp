@@ -32,6 +32,11 @@ std::string line_of(const char* number, const char* name, Offset rows, Offset en
         human_bytes(bytes));
 }
 
+/// "1 box", "2 boxes"
+std::string counted(Offset n, const char* one, const char* many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
 }  // namespace
 
 std::string describe_choices(const ListsInput& input) {
@@ -63,13 +68,14 @@ std::string describe_tree(const BoxTree& tree) {
         n_leaves += leaf;
     }
     const Offset n = view.sources.n + (view.sources_are_targets ? 0 : view.targets.n);
-    return fmt::format(
-        "{} boxes ({} leaves) on {} levels, side of the root {:.10g}; {} particles; "
-        "tree {}{}",
-        view.n_boxes, n_leaves, view.n_levels, view.root_extent, n, human_bytes(tree.bytes()),
+    const std::string each =
         n > 0 ? fmt::format(" ({:.0f} bytes a particle)",
                             static_cast<double>(tree.bytes()) / static_cast<double>(n))
-              : "");
+              : "";
+    return fmt::format("{} ({}) on {}, side of the root {:.10g}; {}; tree {}{}",
+                       counted(view.n_boxes, "box", "boxes"), counted(n_leaves, "leaf", "leaves"),
+                       counted(view.n_levels, "level", "levels"), view.root_extent,
+                       counted(n, "particle", "particles"), human_bytes(tree.bytes()), each);
 }
 
 std::string describe_interactions(const FMMTraversalInfo& lists) {

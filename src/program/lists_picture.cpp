@@ -268,8 +268,8 @@ std::string Picture::caption() const {
         "Every source{} reaches the {} target{} of box {} (level {}) once, by the list that "
         "colours "
         "its box{}.",
-        is_periodic() ? ", in every image next to the root box," : "", n_own, n_own == 1 ? "" : "s",
-        scene_.box, level,
+        is_periodic() ? ", and each of its images next to the root box," : "", n_own,
+        n_own == 1 ? "" : "s", scene_.box, level,
         hollow ? " (of outlined boxes only sources that are not in a child)" : "");
 }
 
