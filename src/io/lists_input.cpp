@@ -25,8 +25,7 @@ public:
         const auto text = root.text("params");
         if (!text) throw Error(Status::format, where_ + " is no string");
         values_ = json::parse(*text, nullptr, false);
-        if (!values_.is_object())
-            throw Error(Status::format, fmt::format("{} is no JSON object: {:.60}", where_, *text));
+        if (!values_.is_object()) throw Error(Status::format, where_ + " is no JSON object");
     }
 
     bool has(const std::string& key) const {

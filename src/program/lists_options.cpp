@@ -82,12 +82,14 @@ void add_lists_command(CLI::App& app, ListsOptions& o) {
     add_traversal(sub, o);
     sub.add_option("--out", o.out, "Write tree, lists and their classes to this HDF5 file")
         ->type_name("FILE");
-    sub.add_option("--plot", o.plot,
-                   "Draw the lists of one box (needs gnuplot); of a 3D tree a slice through it")
-        ->type_name("FILE.png");
+    auto* const plot =
+        sub.add_option("--plot", o.plot,
+                       "Draw the lists of one box (needs gnuplot); of a 3D tree a slice through it")
+            ->type_name("FILE.png");
     sub.add_option("--box", o.box,
                    "The box to draw; default: the target box with entries in the most lists")
         ->check(CLI::NonNegativeNumber)
+        ->needs(plot)
         ->type_name("NUMBER");
     sub.add_option("--threads", o.n_threads, "Threads; default: all cores, or OMP_NUM_THREADS")
         ->check(CLI::PositiveNumber)

@@ -60,6 +60,7 @@ TEST_F(ListsErrors, flags_that_do_not_go_with_the_input) {
     expect_fails(Status::argument, {"stick_out_factor", "radii"}, {"--stick-out", "0.25"});
     expect_fails(Status::argument, {"overwrite"}, {"--plot", in()});
     expect_fails(Status::argument, {".png"}, {"--plot", folder_ / "a.gif"});
+    expect_fails(Status::argument, {"--box", "--plot"}, {"--box", "1"});
     expect_fails(Status::argument, {"tree"}, {"--tree-only", "--plot", folder_ / "a.png"});
     expect_fails(Status::budget, {}, {"--budget", "1"});
 }
