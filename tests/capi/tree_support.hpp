@@ -162,4 +162,23 @@ inline conn_tree_options leaf_of(int n) {
     return options;
 }
 
+/// 150 sources and 110 targets, denser at one corner, both with radii.
+inline Cloud cloud_with_radii(int dim, std::uint64_t seed) {
+    Random random(seed);
+    Cloud cloud;
+    cloud.dim = dim;
+    cloud.sources = random_points(random, dim, 150, 2);
+    cloud.targets = random_points(random, dim, 110, 3);
+    cloud.source_radii = random_radii(random, 150);
+    cloud.target_radii = random_radii(random, 110);
+    cloud.has_targets = true;
+    return cloud;
+}
+
+inline conn_tree_options with_radii(int n) {
+    conn_tree_options options = leaf_of(n);
+    options.stick_out_factor = 0.25;
+    return options;
+}
+
 }  // namespace connectivity::test

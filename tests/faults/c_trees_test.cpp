@@ -55,6 +55,14 @@ protected:
         return boxes;
     }
 
+    /// acquire() again and again, with release() of what it pins.
+    template <class View>
+    void each(const char* name, View& view, conn_status (*release)(View*), const Call& acquire) {
+        each_allocation(
+            name, acquire, [&] { ASSERT_EQ(view.owner, nullptr); }, [&] { release(&view); });
+        EXPECT_TRUE(ok(release(&view)));
+    }
+
     conn_tree* tree_ = nullptr;
     conn_lists* lists_ = nullptr;
 };
@@ -88,72 +96,58 @@ TEST_F(CTrees, builds_that_fail_keep_the_old_boxes_and_lists) {
     EXPECT_TRUE(ok(conn_lists_destroy(&lists)));
 }
 
-TEST_F(CTrees, views_and_lookups_that_fail_hold_nothing) {
-    conn_tree_view boxes = CONN_TREE_VIEW_INIT;
+TEST_F(CTrees, lookups_that_fail_hold_nothing) {
     conn_box_list_view list = CONN_BOX_LIST_VIEW_INIT;
     conn_particles_view particles = CONN_PARTICLES_VIEW_INIT;
-    conn_classes_view classes = CONN_CLASSES_VIEW_INIT;
-    const auto each = [&](const char* name, const auto& acquire, auto& view, const auto& release) {
-        each_allocation(
-            name, acquire, [&] { ASSERT_EQ(view.owner, nullptr); }, [&] { release(&view); });
-        EXPECT_TRUE(ok(release(&view)));
-    };
     const conn_array x = conn_array_matrix(now_.x.data(), n, 2),
                      r = conn_array_vector(now_.h.data(), n);
     const std::vector<std::uint8_t> flags(old_.h.size(), 1);
     const auto n_old = static_cast<std::int64_t>(old_.h.size());
-    std::vector<std::int64_t> starts(flags.size() + 1, 0), counts(2000);
+    std::vector<std::int64_t> starts(flags.size() + 1, 0);
     starts.back() = n;
     std::vector<double> distances(2000);
-    std::int64_t count = 0, total = 0;
-    each(
-        "conn_tree_acquire", [&] { return conn_tree_acquire(tree_, 0, &boxes); }, boxes,
-        conn_tree_release);
-    each(
-        "conn_tree_peers", [&] { return conn_tree_peers(tree_, &list); }, list,
-        conn_box_list_release);
-    each(
-        "conn_tree_area_query", [&] { return conn_tree_area_query(tree_, &x, 1, &r, &list); }, list,
-        conn_box_list_release);
-    each(
-        "conn_tree_leaves_to_balls",
-        [&] { return conn_tree_leaves_to_balls(tree_, &x, 1, &r, &list); }, list,
-        conn_box_list_release);
+    std::int64_t count = 0;
+    each("conn_tree_peers", list, conn_box_list_release,
+         [&] { return conn_tree_peers(tree_, &list); });
+    each("conn_tree_area_query", list, conn_box_list_release,
+         [&] { return conn_tree_area_query(tree_, &x, 1, &r, &list); });
+    each("conn_tree_leaves_to_balls", list, conn_box_list_release,
+         [&] { return conn_tree_leaves_to_balls(tree_, &x, 1, &r, &list); });
     each_allocation("conn_tree_space_invader", [&] {
         return conn_tree_space_invader(tree_, &x, 1, &r, distances.data(), 2000, &count);
     });
-    each(
-        "conn_tree_filter_targets",
-        [&] { return conn_tree_filter_targets(tree_, flags.data(), n_old, &list); }, list,
-        conn_box_list_release);
-    each(
-        "conn_tree_filter_targets_in_tree_order",
-        [&] {
-            return conn_tree_filter_targets_in_tree_order(tree_, flags.data(), n_old, &particles);
-        },
-        particles, conn_particles_release);
-    each(
-        "conn_tree_link_point_sources",
-        [&] {
-            return conn_tree_link_point_sources(tree_, starts.data(), n_old + 1, &x, 1, &particles);
-        },
-        particles, conn_particles_release);
+    each("conn_tree_filter_targets", list, conn_box_list_release,
+         [&] { return conn_tree_filter_targets(tree_, flags.data(), n_old, &list); });
+    each("conn_tree_filter_targets_in_tree_order", particles, conn_particles_release, [&] {
+        return conn_tree_filter_targets_in_tree_order(tree_, flags.data(), n_old, &particles);
+    });
+    each("conn_tree_link_point_sources", particles, conn_particles_release, [&] {
+        return conn_tree_link_point_sources(tree_, starts.data(), n_old + 1, &x, 1, &particles);
+    });
+    EXPECT_GT(n_failed_, 50);
+}
+
+TEST_F(CTrees, views_that_fail_hold_nothing) {
+    conn_tree_view boxes = CONN_TREE_VIEW_INIT;
+    conn_box_list_view list = CONN_BOX_LIST_VIEW_INIT;
+    conn_classes_view classes = CONN_CLASSES_VIEW_INIT;
+    std::vector<std::int64_t> counts(2000);
+    std::int64_t count = 0, total = 0;
+    each("conn_tree_acquire", boxes, conn_tree_release,
+         [&] { return conn_tree_acquire(tree_, 0, &boxes); });
     for (int which = 0; which < 12; ++which)
-        each(
-            "conn_lists_acquire", [&] { return conn_lists_acquire(lists_, which, 0, 0, &list); },
-            list, conn_box_list_release);
+        each("conn_lists_acquire", list, conn_box_list_release,
+             [&] { return conn_lists_acquire(lists_, which, 0, 0, &list); });
     for (int which = 0; which < 3; ++which)
-        each(
-            "conn_lists_classes_acquire",
-            [&] { return conn_lists_classes_acquire(lists_, which, 0, &classes); }, classes,
-            conn_lists_classes_release);
+        each("conn_lists_classes_acquire", classes, conn_lists_classes_release,
+             [&] { return conn_lists_classes_acquire(lists_, which, 0, &classes); });
     each_allocation("conn_lists_work", [&] {
         return conn_lists_work(lists_, CONN_WORK_P2P, counts.data(), 2000, &count, &total);
     });
     ASSERT_TRUE(ok(conn_tree_acquire(tree_, 0, &boxes)));
     each_allocation("conn_tree_set_boxes", [&] { return conn_tree_set_boxes(tree_, &boxes); });
     EXPECT_TRUE(ok(conn_tree_release(&boxes)));
-    EXPECT_GT(n_failed_, 100);
+    EXPECT_GT(n_failed_, 50);
 }
 
 }  // namespace
