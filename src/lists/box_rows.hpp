@@ -25,7 +25,11 @@ public:
         }
     };
 
-    explicit BoxRows(const std::string& label) : label_(label), rows_(label) {}
+    explicit BoxRows(const std::string& label)
+        : label_(label), fill_label_(label + "/fill"), rows_(label) {}
+
+    /// Of the loop that fills, which cannot fail and so must not make it.
+    const std::string& fill_label() const { return fill_label_; }
 
     /// Length of row i is count(i). Returns bytes. Throws Error{memory}; nothing visible changes.
     template <class Count>
@@ -37,26 +41,38 @@ public:
     }
     void reserve() {
         rows_.reserve();
-        grown_ = with_images_ ? allocate<ImageCode>(label_ + "/images", rows_.n_prepared())
-                              : View<ImageCode>();
+        grown_ = {};
+        const Offset n = n_images(), capacity = static_cast<Offset>(images_.size());
+        if (n > capacity || images_.use_count() > 1)
+            grown_ = allocate<ImageCode>(label_ + "/images", n + (capacity > 0 ? n / 16 : 0));
     }
-    Out out() { return {rows_.offsets_to_fill(), rows_.prepared_values(), grown_.data()}; }
+    Out out() {
+        View<ImageCode>& images = grown_.size() > 0 ? grown_ : images_;
+        return {rows_.offsets_to_fill(), rows_.prepared_values(),
+                with_images_ ? images.data() : nullptr};
+    }
     Offset n_prepared() const { return rows_.n_prepared(); }
     void publish() {
         rows_.publish();
-        images_ = grown_;
+        if (grown_.size() > 0) images_ = grown_;
         grown_ = {};
+        has_images_ = with_images_;
     }
     void clear() {
         rows_.clear();
         images_ = grown_ = {};
+        has_images_ = false;
     }
     void abandon() {
         rows_.abandon();
         grown_ = {};
     }
 
-    BoxList view() const { return {rows_.offsets(), rows_.values(), images_}; }
+    BoxList view() const {
+        const auto n = static_cast<std::size_t>(has_images_ ? rows_.n_values() : 0);
+        return {rows_.offsets(), rows_.values(),
+                Kokkos::subview(images_, std::pair<std::size_t, std::size_t>(0, n))};
+    }
     const Csr& rows() const { return rows_; }
     Offset bytes() const {
         return rows_.bytes() + static_cast<Offset>(images_.size() + grown_.size());
@@ -65,13 +81,14 @@ public:
 private:
     Offset sized(Offset bytes, bool with_images) {
         with_images_ = with_images;
-        return bytes + (with_images ? rows_.n_prepared() : 0);
+        return bytes + n_images();
     }
+    Offset n_images() const { return with_images_ ? rows_.n_prepared() : 0; }
 
-    std::string label_;
+    std::string label_, fill_label_;
     Csr rows_;
-    View<ImageCode> images_, grown_;
-    bool with_images_ = false;
+    View<ImageCode> images_, grown_;                 // grown_ is empty when images_ can be reused
+    bool with_images_ = false, has_images_ = false;  // prepared, published
 };
 
 }  // namespace connectivity::detail

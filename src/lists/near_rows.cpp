@@ -25,34 +25,68 @@ int effective_n(const TreeView& tree, int n) {
 
 }  // namespace
 
+Offset NearScratch::bytes() const {
+    std::size_t bytes = rows.size() * sizeof(NearRow) + starts.capacity() * sizeof(Offset);
+    for (const View<Near>& level : levels) bytes += level.size() * sizeof(Near);
+    for (const auto& axis : near)
+        for (const auto& offsets : axis) bytes += offsets.capacity();
+    return static_cast<Offset>(bytes);
+}
+
 NearRows::NearRows(const TreeTables& tables, const Separation& separation,
-                   const TraversalOptions& options, bool all_boxes)
+                   const TraversalOptions& options, NearScratch& scratch)
     : tables_(tables),
       separation_(separation),
+      scratch_(scratch),
       n_(effective_n(tables.tree, options.well_sep_is_n_away)),
-      all_boxes_(all_boxes) {
-    for (int k = 0; k < tables.tree.dim; ++k) {
-        Axis& axis = axes_[static_cast<std::size_t>(k)];
-        axis.bit = static_cast<unsigned>(tables.axis_bit(k));
-        for (int bit = 0; bit < 2; ++bit)
-            for (int offset = -n_; offset <= n_; ++offset) {
-                unsigned near = 0;
-                for (unsigned m = 0; m < 8; ++m)
-                    if (std::abs(2 * offset + ((m & axis.bit) ? 1 : 0) - bit) <= n_)
-                        near |= 1u << m;
-                axis.near[static_cast<std::size_t>(bit)].push_back(static_cast<std::uint8_t>(near));
-            }
-    }
-    rows_ = allocate<Row>("lists/near/rows", tables.tree.n_boxes);
-    bytes_ = tables.tree.n_boxes * Offset{sizeof(Row)};
+      all_boxes_(options.same_level_non_well_sep_boxes),
+      bytes_(tables.bytes() + tables.tree.n_boxes * Offset{sizeof(Row)}) {
+    make_axes();
+    ensure_capacity(scratch.rows, "lists/near/rows", tables.tree.n_boxes);
+    rows_ = scratch.rows.data();
+    const auto n_levels = static_cast<std::size_t>(tables.tree.n_levels);
+    if (scratch.levels.size() < n_levels) scratch.levels.resize(n_levels);
+    take_entries(0, 27, options.budget);
     make_root();
-    for (int level = 1; level < tables.tree.n_levels; ++level) make_level(level, options);
+    for (int level = 1; level < tables.tree.n_levels; ++level) make_level(level, options.budget);
+}
+
+void NearRows::make_axes() {
+    for (int k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        const bool exists = k < tables_.tree.dim;
+        axis_bits_[axis] = exists ? static_cast<unsigned>(tables_.axis_bit(k)) : 0;
+        const int n = exists ? n_ : 0;
+        for (int bit = 0; bit < 2; ++bit) {
+            auto& near = scratch_.near[axis][static_cast<std::size_t>(bit)];
+            near.clear();
+            for (int offset = -n; offset <= n; ++offset) {
+                unsigned children = 0;
+                for (unsigned m = 0; m < 8; ++m)
+                    if (std::abs(2 * offset + ((m & axis_bits_[axis]) ? 1 : 0) - bit) <= n_)
+                        children |= 1u << m;
+                near.push_back(static_cast<std::uint8_t>(children));
+            }
+        }
+    }
+}
+
+/// Storage for the entries of a level.
+View<Near>& NearRows::take_entries(int level, Offset n, const Budget& budget) {
+    bytes_ += n * Offset{sizeof(Near)};
+    if (!budget.allows(bytes_))
+        throw Error(Status::budget, "interaction lists: near boxes down to level " +
+                                        std::to_string(level) + " need " + human_bytes(bytes_) +
+                                        ", the budget allows " + human_bytes(budget.allowed()));
+    View<Near>& entries = scratch_.levels[static_cast<std::size_t>(level)];
+    ensure_capacity(entries, "lists/near", n);
+    return entries;
 }
 
 /// The root, and its images in ascending codes.
 void NearRows::make_root() {
-    std::array<Near, 27> images;
-    std::size_t n = 0;
+    Near* const first = scratch_.levels[0].data();
+    Near* last = first;
     const auto& periodic = tables_.tree.periodic;
     for (ImageCode code = 0; code < 27; ++code) {
         const auto shift = image_shift(code);
@@ -67,19 +101,16 @@ void NearRows::make_root() {
             const int bit = tables_.axis_bit(k);
             e.state |= static_cast<std::uint8_t>(bit | (s < 0 ? bit << 3 : 0));
         }
-        if (exists) images[n++] = e;
+        if (exists) *last++ = e;
     }
-    levels_.push_back(allocate<Near>("lists/near", static_cast<Offset>(n)));
-    std::copy_n(images.begin(), n, levels_.back().data());
-    rows_(0) = {levels_.back().data(), levels_.back().data() + n};
-    bytes_ += static_cast<Offset>(n * sizeof(Near));
+    rows_[0] = {first, last, last - first - 1, 0, 0};
 }
 
 Near NearRows::child_of(const Near& e, unsigned m, unsigned of_target) const {
     Near c{tables_.child(e.box, static_cast<int>(m)), {}, 0, e.image};
     unsigned state = 0;
     for (int k = 0; k < tables_.tree.dim; ++k) {
-        const unsigned bit = axes_[static_cast<std::size_t>(k)].bit;
+        const unsigned bit = axis_bits_[static_cast<std::size_t>(k)];
         const int offset = 2 * e.offset[static_cast<std::size_t>(k)] + ((m & bit) ? 1 : 0) -
                            ((of_target & bit) ? 1 : 0);
         c.offset[static_cast<std::size_t>(k)] = static_cast<std::int16_t>(offset);
@@ -91,50 +122,50 @@ Near NearRows::child_of(const Near& e, unsigned m, unsigned of_target) const {
     return c;
 }
 
-Offset NearRows::n_from_sep_siblings(BoxId b) const {
-    const unsigned m = tables_.number.data()[b];
-    Offset n = 0;
-    for (const Near& e : parent_row(b))
-        if (!e.bigger()) n += std::popcount(tables_.mask(e.box) & ~near_children(e, m));
-    return n;
+/// Counts what the parent's row tells without a look at extents; returns room for the row.
+Offset NearRows::count_row(BoxId b) {
+    const NearChildren near = near_children(tables_.number.data()[b]);
+    const bool targets = has_targets(b);
+    Offset n_near = 0, n_children = 0, n_bigger = 0;
+    for (const Near& e : parent_row(b)) {
+        n_bigger += e.bigger() || tables_.owns_sources(e.box);
+        if (e.bigger()) continue;
+        n_near += std::popcount(tables_.mask(e.box) & near(e));
+        n_children += std::popcount(tables_.mask(e.box));
+    }
+    // One of those that are near is b itself.
+    rows_[b] = {nullptr, nullptr, n_near - 1, n_children - n_near, 0};
+    return n_near + (targets ? n_bigger : 0);
 }
 
-void NearRows::make_level(int level, const TraversalOptions& options) {
+void NearRows::make_level(int level, const Budget& budget) {
     const TreeView& tree = tables_.tree;
     const BoxId start = tree.level_start_box_nrs(level);
     const Offset n_boxes = tree.level_start_box_nrs(level + 1) - start;
     constexpr Offset chunk = 256;
-    std::vector<Offset> ends(static_cast<std::size_t>(n_chunks(n_boxes, chunk)) + 1);
-    const auto nothing = [](BoxId, ImageCode) {};
-    const auto has_row = [&](BoxId b) { return all_boxes_ || (tables_.flags(b) & target_flags); };
+    auto& starts = scratch_.starts;
+    starts.assign(static_cast<std::size_t>(n_chunks(n_boxes, chunk)) + 1, 0);
     for_each_chunk("lists/near/count", n_boxes, chunk, [&](Offset c, Offset first, Offset last) {
         Offset n = 0;
-        for (Offset i = first; i < last; ++i) {
-            const auto b = static_cast<BoxId>(start + i);
+        for (auto b = static_cast<BoxId>(start + first); b < start + last; ++b)
             if (has_row(b))
-                make_row(
-                    b, [&](const Near&) { ++n; }, nothing);
-        }
-        ends[static_cast<std::size_t>(c) + 1] = n;
+                n += count_row(b);
+            else
+                rows_[b] = {};
+        starts[static_cast<std::size_t>(c) + 1] = n;
     });
-    for (std::size_t c = 1; c < ends.size(); ++c) ends[c] += ends[c - 1];
-    bytes_ += ends.back() * Offset{sizeof(Near)};
-    if (!options.budget.allows(bytes_))
-        throw Error(Status::budget, "interaction lists: near boxes down to level " +
-                                        std::to_string(level) + " need " + human_bytes(bytes_) +
-                                        ", the budget allows " +
-                                        human_bytes(options.budget.allowed()));
-    levels_.push_back(allocate<Near>("lists/near", ends.back()));
-    Near* const entries = levels_.back().data();
+    for (std::size_t c = 1; c < starts.size(); ++c) starts[c] += starts[c - 1];
+    Near* const entries = take_entries(level, starts.back(), budget).data();
     for_each_chunk("lists/near/fill", n_boxes, chunk, [&](Offset c, Offset first, Offset last) {
-        Near* out = entries + ends[static_cast<std::size_t>(c)];
-        for (Offset i = first; i < last; ++i) {
-            const auto b = static_cast<BoxId>(start + i);
-            Near* const begin = out;
-            if (has_row(b))
-                make_row(
-                    b, [&](const Near& e) { *out++ = e; }, nothing);
-            rows_(b) = {begin, out};
+        Near* out = entries + starts[static_cast<std::size_t>(c)];
+        for (auto b = static_cast<BoxId>(start + first); b < start + last; ++b) {
+            if (!has_row(b)) continue;
+            Row& row = rows_[b];
+            row.first = out;
+            make_row(
+                b, [&](const Near& e) { *out++ = e; },
+                [&](BoxId, ImageCode) { ++row.n_from_sep_bigger; });
+            row.last = out;
         }
     });
 }

@@ -10,6 +10,7 @@
 #include <connectivity/lists/traversal.hpp>
 
 #include "box_rows.hpp"
+#include "build_scratch.hpp"
 
 namespace connectivity::detail {
 
@@ -54,6 +55,7 @@ struct TraversalState {
     BoxRows bigger{"lists/from_sep_bigger"};
     BoxRows close_bigger{"lists/from_sep_close_bigger"};
     Report report;
+    BuildScratch scratch;
 
     /// f(list) for all but list 3.
     template <class F>

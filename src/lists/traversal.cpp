@@ -36,7 +36,9 @@ FMMTraversalInfo::FMMTraversalInfo(const TreeView& tree, const TraversalOptions&
     rebuild(tree, options);
 }
 FMMTraversalInfo::FMMTraversalInfo(const FMMTraversalInfo& other)
-    : state_(std::make_unique<TraversalState>(*other.state_)) {}
+    : state_(std::make_unique<TraversalState>(*other.state_)) {
+    release_scratch();
+}
 FMMTraversalInfo::FMMTraversalInfo(FMMTraversalInfo&& other) noexcept = default;
 FMMTraversalInfo& FMMTraversalInfo::operator=(FMMTraversalInfo other) noexcept {
     std::swap(state_, other.state_);
@@ -47,10 +49,21 @@ FMMTraversalInfo::~FMMTraversalInfo() = default;
 void FMMTraversalInfo::rebuild(const TreeView& tree, const TraversalOptions& options) {
     run_kernels("interaction lists", [&] {
         const shim::ProfilingRegion region("lists/rebuild");
-        detail::TraversalBuild build(tree, options);
-        build.prepare(*state_);
-        build.commit(*state_);
+        try {
+            detail::TraversalBuild build(tree, options, state_->scratch);
+            build.prepare(*state_);
+            build.commit(*state_);
+        } catch (...) {
+            release_scratch();  // it may be what there was no memory for
+            throw;
+        }
     });
+}
+
+Offset FMMTraversalInfo::scratch_bytes() const { return state_->scratch.bytes(); }
+void FMMTraversalInfo::release_scratch() {
+    state_->scratch = {};
+    if (state_->built) state_->report.entry("scratch").bytes = 0;
 }
 
 const TreeView& FMMTraversalInfo::tree() const { return state_->tree; }

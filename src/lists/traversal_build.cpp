@@ -49,11 +49,13 @@ struct CountSink {
 
 }  // namespace
 
-TraversalBuild::TraversalBuild(const TreeView& tree, const TraversalOptions& options)
-    : options_(checked(options, tree)),
-      tables_(tree),
+TraversalBuild::TraversalBuild(const TreeView& tree, const TraversalOptions& options,
+                               BuildScratch& scratch)
+    : scratch_(scratch),
+      options_(checked(options, tree)),
+      tables_(tree, scratch.tables),
       separation_(tree, options),
-      near_(tables_, separation_, options, options.same_level_non_well_sep_boxes),
+      near_(tables_, separation_, options, scratch.near),
       has_close_(tree.have_extent()) {
     for (int k = 0; k < tree.dim; ++k) periodic_ |= tree.periodic[static_cast<std::size_t>(k)];
     ms_near_ = watch_.ms();
@@ -82,42 +84,45 @@ void TraversalBuild::find_bases() {
     const auto passes = [](const ConstView<std::uint8_t>& mask, Offset b) {
         return mask.size() == 0 || mask(b) != 0;
     };
+    BuildScratch& to = scratch_;
+    const std::array bases{&to.sources, &to.targets, &to.source_parents, &to.target_parents};
+    for (BaseBoxes* base : bases) {
+        base->boxes.clear();
+        base->level_starts.assign(1, 0);
+    }
     for (int level = 0; level < tree.n_levels; ++level) {
-        for (Base* base : {&sources_, &targets_, &source_parents_, &target_parents_})
-            base->level_starts.push_back(static_cast<Offset>(base->boxes.size()));
         for (BoxId b = tree.level_start_box_nrs(level); b < tree.level_start_box_nrs(level + 1);
              ++b) {
             const unsigned flags = tables_.flags(b);
             if ((flags & box_flag::has_own_sources) && passes(options_.source_boxes_mask, b))
-                sources_.boxes.push_back(b);
+                to.sources.boxes.push_back(b);
             if ((flags & box_flag::has_child_sources) &&
                 passes(options_.source_parent_boxes_mask, b))
-                source_parents_.boxes.push_back(b);
-            if (flags & box_flag::has_own_targets) targets_.boxes.push_back(b);
-            if (flags & target_flags) target_parents_.boxes.push_back(b);
+                to.source_parents.boxes.push_back(b);
+            if (flags & box_flag::has_own_targets) to.targets.boxes.push_back(b);
+            if (flags & target_flags) to.target_parents.boxes.push_back(b);
         }
+        for (BaseBoxes* base : bases) base->level_starts.push_back(base->size());
     }
-    for (Base* base : {&sources_, &targets_, &source_parents_, &target_parents_})
-        base->level_starts.push_back(static_cast<Offset>(base->boxes.size()));
 }
 
 void TraversalBuild::count_targets() {
     if (!options_.neighbor_source_boxes && !options_.from_sep_smaller) return;
     const auto chunks = static_cast<std::size_t>(n_chunks(n_targets(), chunk));
-    n_near_.resize(targets_.boxes.size());
-    n_close_.resize(targets_.boxes.size());
-    smaller_entries_.assign(chunks * static_cast<std::size_t>(n_levels()), 0);
-    smaller_rows_ = smaller_entries_;
+    scratch_.n_near.resize(scratch_.targets.boxes.size());
+    scratch_.n_close.resize(scratch_.targets.boxes.size());
+    scratch_.smaller_entries.assign(chunks * static_cast<std::size_t>(n_levels()), 0);
+    scratch_.smaller_rows = scratch_.smaller_entries;
     for_each_chunk("lists/count", n_targets(), chunk, [&](Offset c, Offset first, Offset last) {
-        CountSink sink{tables_, options_.from_sep_smaller, &smaller_entries_[cell(c, 0)],
-                       &smaller_rows_[cell(c, 0)]};
+        CountSink sink{tables_, options_.from_sep_smaller, &scratch_.smaller_entries[cell(c, 0)],
+                       &scratch_.smaller_rows[cell(c, 0)]};
         TargetWalk walk(tables_, separation_, sink);
         for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-            sink.target = targets_.boxes[i];
+            sink.target = scratch_.targets.boxes[i];
             sink.n_near = sink.n_close = 0;
             walk(sink.target, near_.row(sink.target));
-            n_near_[i] = sink.n_near;
-            n_close_[i] = sink.n_close;
+            scratch_.n_near[i] = sink.n_near;
+            scratch_.n_close[i] = sink.n_close;
         }
     });
 }
@@ -126,35 +131,32 @@ void TraversalBuild::prepare_lists(TraversalState& state) {
     const auto nth = [](const std::vector<Offset>& counts) {
         return [&](Offset i) { return counts[static_cast<std::size_t>(i)]; };
     };
-    const auto n_target_parents = static_cast<Offset>(target_parents_.boxes.size());
+    const auto n_target_parents = scratch_.target_parents.size();
     const bool smaller = options_.from_sep_smaller, bigger = options_.from_sep_bigger;
     plan("same_level_non_well_sep_boxes", options_.same_level_non_well_sep_boxes, state.same_level,
-         tables_.tree.n_boxes, [&](Offset b) { return near_.n_same_level(static_cast<BoxId>(b)); });
+         tables_.tree.n_boxes,
+         [&](Offset b) { return near_.row(static_cast<BoxId>(b)).n_same_level; });
     plan("neighbor_source_boxes", options_.neighbor_source_boxes, state.neighbors, n_targets(),
-         nth(n_near_));
+         nth(scratch_.n_near));
     plan("from_sep_siblings", options_.from_sep_siblings, state.siblings, n_target_parents,
-         [&](Offset i) { return near_.n_from_sep_siblings(target_parent(i)); });
+         [&](Offset i) { return near_.row(target_parent(i)).n_from_sep_siblings; });
     plan("from_sep_close_smaller", has_close_ && smaller, state.close_smaller, n_targets(),
-         nth(n_close_));
-    plan("from_sep_bigger", bigger, state.bigger, n_target_parents, [&](Offset i) {
-        Offset n = 0;
-        near_.make_row(
-            target_parent(i), [](const Near&) {}, [&](BoxId, ImageCode) { ++n; });
-        return n;
-    });
+         nth(scratch_.n_close));
+    plan("from_sep_bigger", bigger, state.bigger, n_target_parents,
+         [&](Offset i) { return near_.row(target_parent(i)).n_from_sep_bigger; });
     plan("from_sep_close_bigger", has_close_ && bigger, state.close_bigger, n_targets(),
          [&](Offset i) {
              Offset n = 0;
              for (const Near& e : near_.row(target(i))) n += e.open();
              return n;
          });
-    const auto by_level = [&](Csr& rows, const Base& base) {
+    const auto by_level = [&](Csr& rows, const BaseBoxes& base) {
         rows.prepare(n_levels(), [&](Offset level) { return base.n_in(level); });
     };
-    by_level(state.base.sources, sources_);
-    by_level(state.base.targets, targets_);
-    by_level(state.base.source_parents, source_parents_);
-    by_level(state.base.target_parents, target_parents_);
+    by_level(state.base.sources, scratch_.sources);
+    by_level(state.base.targets, scratch_.targets);
+    by_level(state.base.source_parents, scratch_.source_parents);
+    by_level(state.base.target_parents, scratch_.target_parents);
 }
 
 void TraversalBuild::prepare_smaller(SmallerLists& smaller) {
@@ -166,8 +168,8 @@ void TraversalBuild::prepare_smaller(SmallerLists& smaller) {
         for (Offset level = 0; level < n_levels(); ++level) {
             Offset entries = 0, rows = 0;
             for (Offset c = 0; c < n_chunks(n_targets(), chunk); ++c) {
-                entries += std::exchange(smaller_entries_[cell(c, level)], entries);
-                rows += std::exchange(smaller_rows_[cell(c, level)], rows);
+                entries += std::exchange(scratch_.smaller_entries[cell(c, level)], entries);
+                rows += std::exchange(scratch_.smaller_rows[cell(c, level)], rows);
             }
             const auto l = static_cast<std::size_t>(level);
             n_rows[l] = rows;
@@ -211,9 +213,11 @@ void TraversalBuild::make_report() {
         entry.built = plan.wanted;
         entry.asked_by = plan.wanted ? "options" : "";
     }
-    report_.entry("near").reason = "temporary, for all lists";
-    report_.entry("count").reason = "of all lists";
-    report_.entry("fill").reason = "of all lists";
+    for (const char* phase : {"near", "count", "fill"})
+        report_.entry(phase).reason = "of all lists";
+    ReportEntry& scratch = report_.entry("scratch");
+    scratch.reason = "kept for the next build";
+    scratch.bytes = scratch_.bytes();
     report_.counter("near bytes") = near_.bytes();
 }
 

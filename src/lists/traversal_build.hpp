@@ -2,12 +2,12 @@
 #pragma once
 /// One build of interaction lists: everything that can fail first, then a fill that cannot.
 ///
-/// Cost: every walk is made twice, to count and to fill; the only temporaries are the near rows, 16
-/// bytes a target box, and 16 bytes for each level and 256 target boxes.
+/// Cost: every walk is made twice, to count and to fill; besides the lists it needs the near rows,
+/// 16 bytes a target box, and 16 bytes for each level and 256 target boxes, all of it scratch.
 
+#include <string>
 #include <vector>
 
-#include "near_rows.hpp"
 #include "state.hpp"
 
 namespace connectivity::detail {
@@ -15,23 +15,15 @@ namespace connectivity::detail {
 class TraversalBuild {
 public:
     /// Checks options and tree, and finds what is near. Throws Error.
-    TraversalBuild(const TreeView& tree, const TraversalOptions& options);
+    TraversalBuild(const TreeView& tree, const TraversalOptions& options, BuildScratch& scratch);
 
     /// Counts, checks the budget, and takes the storage that the lists need. Throws Error; then
     /// the state is as it was.
     void prepare(TraversalState& state);
-    /// Fills and publishes what was prepared.
-    void commit(TraversalState& state) noexcept;
+    /// Fills and publishes what was prepared: overwrites the old lists, and needs no memory.
+    void commit(TraversalState& state);
 
 private:
-    struct Base {
-        std::vector<BoxId> boxes;
-        std::vector<Offset> level_starts;
-        Offset n_in(Offset level) const {
-            const auto l = static_cast<std::size_t>(level);
-            return level_starts[l + 1] - level_starts[l];
-        }
-    };
     struct Plan {
         const char* name;
         bool wanted;
@@ -61,28 +53,24 @@ private:
         plans_.push_back({name, wanted, bytes, wanted ? rows.n_prepared() : 0});
     }
     Offset n_levels() const { return tables_.tree.n_levels; }
-    Offset n_targets() const { return static_cast<Offset>(targets_.boxes.size()); }
-    BoxId target(Offset i) const { return targets_.boxes[static_cast<std::size_t>(i)]; }
-    BoxId target_parent(Offset i) const {
-        return target_parents_.boxes[static_cast<std::size_t>(i)];
-    }
+    Offset n_targets() const { return scratch_.targets.size(); }
+    BoxId target(Offset i) const { return scratch_.targets[i]; }
+    BoxId target_parent(Offset i) const { return scratch_.target_parents[i]; }
     std::size_t cell(Offset of_chunk, Offset level) const {
         return static_cast<std::size_t>(of_chunk * n_levels() + level);
     }
 
     Stopwatch watch_;  // the first member: it times the making of the others
+    BuildScratch& scratch_;
     TraversalOptions options_;
     TreeTables tables_;
     Separation separation_;
     NearRows near_;
     bool periodic_ = false, has_close_ = false;
-    Base sources_, targets_, source_parents_, target_parents_;
-    std::vector<Offset> n_near_, n_close_;  ///< [targets]: entries of list 1, of 3 close
-    /// [chunk][level] of list 3: how many, then where the chunk begins.
-    std::vector<Offset> smaller_entries_, smaller_rows_;
     std::vector<Plan> plans_;
     Report report_;
     double ms_near_ = 0, ms_count_ = 0;
+    std::string walk_label_ = "lists/targets/fill";
 };
 
 }  // namespace connectivity::detail

@@ -51,29 +51,29 @@ struct FillSink {
     }
 };
 
-/// fill(row, first entry) for all rows.
+/// fill(row, out, first entry) for all rows.
 template <class Fill>
-void fill_rows(const char* label, Offset n_rows, const BoxRows::Out& out, const Fill& fill) {
-    for_each_chunk(label, n_rows, 256, [&](Offset, Offset first, Offset last) {
-        for (Offset i = first; i < last; ++i) fill(i, out.starts[i]);
+void fill_rows(BoxRows& rows, Offset n_rows, const Fill& fill) {
+    const BoxRows::Out out = rows.out();
+    for_each_chunk(rows.fill_label(), n_rows, 256, [&](Offset, Offset first, Offset last) {
+        for (Offset i = first; i < last; ++i) fill(i, out, out.starts[i]);
     });
 }
 
 }  // namespace
 
 void TraversalBuild::fill_bases(BaseLists& base) const {
-    const auto fill = [](Csr& rows, const Base& from) {
+    const auto fill = [](Csr& rows, const BaseBoxes& from) {
         std::copy(from.boxes.begin(), from.boxes.end(), rows.prepared_values());
     };
-    fill(base.sources, sources_);
-    fill(base.targets, targets_);
-    fill(base.source_parents, source_parents_);
-    fill(base.target_parents, target_parents_);
+    fill(base.sources, scratch_.sources);
+    fill(base.targets, scratch_.targets);
+    fill(base.source_parents, scratch_.source_parents);
+    fill(base.target_parents, scratch_.target_parents);
 }
 
 void TraversalBuild::fill_same_level(BoxRows& rows) const {
-    const auto out = rows.out();
-    fill_rows("lists/same_level/fill", tables_.tree.n_boxes, out, [&](Offset i, Offset at) {
+    fill_rows(rows, tables_.tree.n_boxes, [&](Offset i, const BoxRows::Out& out, Offset at) {
         const auto b = static_cast<BoxId>(i);
         for (const Near& e : near_.row(b))
             if (NearRows::is_same_level(b, e)) out.put(at++, e.box, e.image);
@@ -81,18 +81,18 @@ void TraversalBuild::fill_same_level(BoxRows& rows) const {
 }
 
 void TraversalBuild::fill_siblings(BoxRows& rows) const {
-    const auto out = rows.out();
-    const auto n = static_cast<Offset>(target_parents_.boxes.size());
-    fill_rows("lists/from_sep_siblings/fill", n, out, [&](Offset i, Offset at) {
+    const Offset n = scratch_.target_parents.size();
+    fill_rows(rows, n, [&](Offset i, const BoxRows::Out& out, Offset at) {
         near_.from_sep_siblings(
             target_parent(i), [&](BoxId source, ImageCode image) { out.put(at++, source, image); });
     });
 }
 
+/// Makes rows another time where list 4 takes some of them.
 void TraversalBuild::fill_bigger(BoxRows& rows) const {
-    const auto out = rows.out();
-    const auto n = static_cast<Offset>(target_parents_.boxes.size());
-    fill_rows("lists/from_sep_bigger/fill", n, out, [&](Offset i, Offset begin) {
+    const Offset n = scratch_.target_parents.size();
+    fill_rows(rows, n, [&](Offset i, const BoxRows::Out& out, Offset begin) {
+        if (near_.row(target_parent(i)).n_from_sep_bigger == 0) return;
         Offset at = begin;
         near_.make_row(
             target_parent(i), [](const Near&) {},
@@ -103,8 +103,7 @@ void TraversalBuild::fill_bigger(BoxRows& rows) const {
 }
 
 void TraversalBuild::fill_close_bigger(BoxRows& rows) const {
-    const auto out = rows.out();
-    fill_rows("lists/from_sep_close_bigger/fill", n_targets(), out, [&](Offset i, Offset begin) {
+    fill_rows(rows, n_targets(), [&](Offset i, const BoxRows::Out& out, Offset begin) {
         Offset at = begin;
         for (const Near& e : near_.row(target(i)))
             if (e.open()) put_by_level(tables_, out, begin, at++, e.box, e.image);
@@ -118,7 +117,7 @@ void TraversalBuild::fill_targets(TraversalState& state) {
     };
     const auto near_out = out_of(state.neighbors, options_.neighbor_source_boxes),
                close_out = out_of(state.close_smaller, smaller && has_close_);
-    for_each_chunk("lists/fill", n_targets(), chunk, [&](Offset c, Offset first, Offset last) {
+    for_each_chunk(walk_label_, n_targets(), chunk, [&](Offset c, Offset first, Offset last) {
         std::array<LevelCursor, 256> cursors;
         for (Offset l = 0; smaller && l < n_levels(); ++l) {
             const auto level = static_cast<std::size_t>(l);
@@ -127,7 +126,8 @@ void TraversalBuild::fill_targets(TraversalState& state) {
                                   state.smaller.indices.prepared_offsets()[l],
                               state.smaller.targets.prepared_values() +
                                   state.smaller.targets.prepared_offsets()[l],
-                              smaller_rows_[cell(c, l)], smaller_entries_[cell(c, l)]};
+                              scratch_.smaller_rows[cell(c, l)],
+                              scratch_.smaller_entries[cell(c, l)]};
         }
         FillSink sink{tables_, near_out, close_out, smaller ? cursors.data() : nullptr};
         TargetWalk walk(tables_, separation_, sink);
@@ -141,7 +141,7 @@ void TraversalBuild::fill_targets(TraversalState& state) {
     });
 }
 
-void TraversalBuild::commit(TraversalState& state) noexcept {
+void TraversalBuild::commit(TraversalState& state) {
     fill_bases(state.base);
     if (options_.same_level_non_well_sep_boxes) fill_same_level(state.same_level);
     if (options_.from_sep_siblings) fill_siblings(state.siblings);

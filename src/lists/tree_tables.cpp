@@ -97,12 +97,16 @@ const char* lay_out(const TreeTables& tables, BoxId b) {
 
 }  // namespace
 
-TreeTables::TreeTables(const TreeView& view) : tree(view), n_children(1 << view.dim) {
+TreeTables::TreeTables(const TreeView& view, TableScratch& scratch)
+    : tree(view), n_children(1 << view.dim) {
     check_sizes(view);
     check_levels(view);
-    children = allocate<BoxId>("lists/children", view.n_boxes * n_children);
-    child_mask = allocate<std::uint8_t>("lists/child_mask", view.n_boxes);
-    number = allocate<std::uint8_t>("lists/child_number", view.n_boxes);
+    ensure_capacity(scratch.children, "lists/children", view.n_boxes * n_children);
+    ensure_capacity(scratch.child_mask, "lists/child_mask", view.n_boxes);
+    ensure_capacity(scratch.number, "lists/child_number", view.n_boxes);
+    children = scratch.children;
+    child_mask = scratch.child_mask;
+    number = scratch.number;
     std::atomic<Offset> worst{view.n_boxes};
     for_each_chunk("lists/tables", view.n_boxes, 4096, [&](Offset, Offset first, Offset last) {
         for (Offset b = first; b < last; ++b)

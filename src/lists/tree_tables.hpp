@@ -14,6 +14,16 @@ namespace connectivity::detail {
 constexpr std::uint8_t source_flags = box_flag::has_own_sources | box_flag::has_child_sources;
 constexpr std::uint8_t target_flags = box_flag::has_own_targets | box_flag::has_child_targets;
 
+/// The storage of TreeTables, kept for the next build.
+struct TableScratch {
+    View<BoxId> children;
+    View<std::uint8_t> child_mask, number;
+    Offset bytes() const {
+        return static_cast<Offset>(children.size() * sizeof(BoxId) + child_mask.size() +
+                                   number.size());
+    }
+};
+
 struct TreeTables {
     TreeView tree;
     int n_children = 0;             ///< 2^dim
@@ -22,7 +32,11 @@ struct TreeTables {
     View<std::uint8_t> number;      ///< [n_boxes]: child number in the parent; 0 for the root
 
     /// Throws Error: argument, null, memory.
-    explicit TreeTables(const TreeView& view);
+    TreeTables(const TreeView& view, TableScratch& scratch);
+
+    Offset bytes() const {
+        return tree.n_boxes * (n_children * static_cast<Offset>(sizeof(BoxId)) + 2);
+    }
 
     std::uint8_t flags(BoxId b) const { return tree.box_flags.data()[b]; }
     BoxId child(BoxId b, int m) const { return children.data()[Offset{b} * n_children + m]; }

@@ -122,12 +122,43 @@ TEST(Options, build_only_what_is_asked_for) {
     EXPECT_THROW(lists.from_sep_siblings(), Error);
     EXPECT_THROW(lists.from_sep_smaller(0), Error);
     EXPECT_THROW(lists.colleagues(), Error);
-    for (const ReportEntry& entry : lists.report().entries()) {
-        if (entry.product == "neighbor_source_boxes")
-            EXPECT_GT(entry.bytes, 0);
-        else
-            EXPECT_EQ(entry.bytes, 0) << entry.product;
+}
+
+TEST(Options, lists_nobody_asked_for_hold_no_bytes_also_after_builds_that_had_them) {
+    SlowInput in = uniform_input(2, 200);
+    in.target_radii = true;
+    in.stick_out = 0.25;
+    const SlowTree tree(in);
+    const std::vector<std::vector<std::string>> products{
+        {"same_level_non_well_sep_boxes"},
+        {"neighbor_source_boxes"},
+        {"from_sep_siblings"},
+        {"from_sep_smaller", "from_sep_close_smaller"},
+        {"from_sep_bigger", "from_sep_close_bigger"}};
+    FMMTraversalInfo lists(tree.view());
+    for (const ReportEntry& entry : lists.report().entries())
+        EXPECT_EQ(entry.bytes > 0, entry.built || entry.product == "scratch") << entry.product;
+    for (std::size_t asked = 0; asked < products.size(); ++asked) {
+        TraversalOptions options;
+        bool* const wanted[] = {&options.same_level_non_well_sep_boxes,
+                                &options.neighbor_source_boxes, &options.from_sep_siblings,
+                                &options.from_sep_smaller, &options.from_sep_bigger};
+        for (std::size_t k = 0; k < products.size(); ++k) *wanted[k] = k == asked;
+        lists.rebuild(tree.view(), options);
+        for (std::size_t k = 0; k < products.size(); ++k)
+            for (const std::string& product : products[k]) {
+                const ReportEntry* const entry = lists.report().find(product);
+                ASSERT_NE(entry, nullptr) << product;
+                EXPECT_EQ(entry->built, k == asked) << product;
+                EXPECT_EQ(entry->bytes > 0, k == asked) << product;
+                EXPECT_EQ(entry->asked_by.empty(), k != asked) << product;
+                EXPECT_EQ(entry->ms, 0) << product;
+            }
+        lists.rebuild(tree.view());
     }
+    lists.release_scratch();
+    EXPECT_EQ(lists.scratch_bytes(), 0);
+    EXPECT_EQ(lists.report().find("scratch")->bytes, 0);
 }
 
 TEST(Options, masks_restrict_the_source_lists_alone) {

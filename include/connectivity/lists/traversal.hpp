@@ -36,9 +36,10 @@
 /// the grid are made by integers and hold at any depth; decisions about extents are made once, a
 /// child inherits what its parent left.
 ///
-/// Cost: time and memory are those of the entries, and 12 bytes for each entry of nws rows while
-/// the lists are made. Source: boxtree, https://documen.tician.de/boxtree/traversal.html; Carrier,
-/// Greengard, Rokhlin, SIAM J. Sci. Stat. Comput. 9 (1988) 669.
+/// Cost: time and memory are those of the entries, and 12 bytes for each entry of nws rows as
+/// scratch, so that a rebuild allocates nothing unless lists grow or are held elsewhere. Source:
+/// boxtree, https://documen.tician.de/boxtree/traversal.html; Carrier, Greengard, Rokhlin, SIAM J.
+/// Sci. Stat. Comput. 9 (1988) 669.
 
 #include <memory>
 #include <optional>
@@ -59,7 +60,7 @@ class FMMTraversalInfo {
 public:
     FMMTraversalInfo();
     explicit FMMTraversalInfo(const TreeView& tree, const TraversalOptions& options = {});
-    /// Copies share the lists; a rebuild of one leaves the other as it is.
+    /// Copies share the lists, and have no scratch; a rebuild of one leaves the other as it is.
     FMMTraversalInfo(const FMMTraversalInfo& other);
     FMMTraversalInfo(FMMTraversalInfo&& other) noexcept;
     FMMTraversalInfo& operator=(FMMTraversalInfo other) noexcept;
@@ -121,6 +122,9 @@ public:
 
     /// What each list costs: bytes, and the time of the phase that made it.
     const Report& report() const;
+
+    Offset scratch_bytes() const;  ///< kept for the next rebuild
+    void release_scratch();        ///< gives that back
 
 private:
     std::unique_ptr<detail::TraversalState> state_;
