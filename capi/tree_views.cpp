@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <string>
 
-#include <lists/tree_tables.hpp>
-
 #include "guard.hpp"
 #include "tree_objects.hpp"
 
@@ -150,6 +148,16 @@ void copy_particles(const conn_tree_view& in, Copier& copier, TreeView& tree) {
     targets.bounding_box_max = copier.wanted(in.box_target_bounding_box_max, hull);
 }
 
+/// Throws Error{argument} where arrays contradict each other: lists that want nothing but the boxes
+/// look at all of them.
+void check_boxes(const TreeView& tree) {
+    TraversalOptions options;
+    options.same_level_non_well_sep_boxes = options.neighbor_source_boxes =
+        options.from_sep_siblings = options.from_sep_smaller = options.from_sep_bigger = false;
+    options.from_sep_smaller_crit = FromSepSmallerCrit::static_l2;  // needs no hulls
+    const FMMTraversalInfo lists(tree, options);
+}
+
 }  // namespace
 
 conn_status conn_tree_acquire(const conn_tree* tree, int32_t space, conn_tree_view* view) {
@@ -181,7 +189,7 @@ conn_status conn_tree_set_boxes(conn_tree* tree, const conn_tree_view* boxes) {
         Copier copier;
         copy_boxes(in, copier, given);
         copy_particles(in, copier, given);
-        const detail::TreeTables check(given);  // throws where arrays contradict each other
+        check_boxes(given);
         BoxTree none;
         ours.builder = std::move(none);
         ours.given = given;
