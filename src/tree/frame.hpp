@@ -64,41 +64,43 @@ struct Frame {
         return interleave<Dim>(cell);
     }
 
-    /// Centre, on one axis, of the box at `level` that holds x.
-    double center(Real x, int d, int level) const {
+    /// Centre, on one axis, of the box at `level` that holds x; rounded as the host's numbers are.
+    Real center(Real x, int d, int level) const {
         const double cells = power_of_two(level);
         const double cell = std::min(floor_of(scaled(x, d) * cells), cells - 1);
-        return lo[d] + static_cast<double>(side[d]) * ((cell + 0.5) * power_of_two(-level));
+        return lo[d] + side[d] * static_cast<Real>((cell + 0.5) * power_of_two(-level));
     }
 };
 
-/// Who sticks out of which box.
+/// Who sticks out of which box. Sums are rounded in the host's precision, as boxtree's are: they
+/// decide where points on faces stay.
 template <class Real, int Dim>
 struct StickOut {
     Frame<Real, Dim> frame;
     double factor = 0;
     ExtentNorm norm = ExtentNorm::linf;
 
-    double half_width(int level, int d) const {
-        return static_cast<double>(frame.side[d]) * power_of_two(-(level + 1));
+    /// Half the width of an enlarged box.
+    Real room(int level, int d) const {
+        const auto half = static_cast<Real>(frame.side[d] * power_of_two(-(level + 1)));
+        return static_cast<Real>(1 + static_cast<double>(static_cast<Real>(factor))) * half;
     }
 
     /// Does particle i stick out of the box at `level` that holds its centre?
     bool sticks_out(const Particles<Real, Dim>& particles, Offset i, int level) const {
-        const double radius = particles.radius(i);
+        const Real radius = particles.radius(i);
         double distance2 = 0;
         for (int d = 0; d < Dim; ++d) {
-            const Real position = particles.position(i, d);
-            const double x = position, c = frame.center(position, d, level),
-                         room = (1 + factor) * half_width(level, d);
-            if (norm == ExtentNorm::linf && (x + radius >= c + room || x - radius < c - room))
+            const Real x = particles.position(i, d), c = frame.center(x, d, level),
+                       h = room(level, d);
+            if (norm == ExtentNorm::linf && (x + radius >= c + h || x - radius < c - h))
                 return true;
-            distance2 += (x - c) * (x - c);
+            const double away = x - c;
+            distance2 += away * away;
         }
         if (norm == ExtentNorm::linf) return false;
-        const double reach = std::sqrt(distance2) + radius,
-                     room = (1 + factor) * half_width(level, 0);
-        return reach * reach >= Dim * room * room;
+        const double reach = std::sqrt(distance2) + static_cast<double>(radius), h = room(level, 0);
+        return reach * reach >= Dim * h * h;
     }
 
     /// Deepest level in [level, last] that particle i, now at `level`, may enter.
@@ -112,9 +114,10 @@ private:
     /// A level that the particle enters in any case: there its radius, and all rounding, are less
     /// than what it may stick out.
     int first_doubtful(const Particles<Real, Dim>& particles, Offset i) const {
-        double slack = particles.radius(i);
-        for (int d = 0; d < Dim; ++d) slack += std::abs(static_cast<double>(frame.lo[d])) * 0x1p-50;
-        slack += static_cast<double>(frame.extent) * (sizeof(Real) == 4 ? 0x1p-22 : 0x1p-50);
+        constexpr double rounding = sizeof(Real) == 4 ? 0x1p-21 : 0x1p-50;
+        double slack = particles.radius(i) + static_cast<double>(frame.extent) * rounding;
+        for (int d = 0; d < Dim; ++d)
+            slack += std::abs(static_cast<double>(frame.lo[d])) * rounding;
         // factor * extent / 2^(level + 1) > slack
         const double ratio = factor * static_cast<double>(frame.extent) / slack;
         if (!(ratio > 4)) return 0;

@@ -98,24 +98,34 @@ private:
     }
     bool sticks_out(int i, int level) const {
         if (case_.radii.empty()) return false;
+        return case_.type == CoordinateType::float32 ? sticks_out_of<float>(i, level)
+                                                     : sticks_out_of<double>(i, level);
+    }
+    /// Every operation rounded to Real.
+    template <class Real>
+    bool sticks_out_of(int i, int level) const {
         const auto room_on = [&](int d) {
-            return (1 + *case_.options.stick_out_factor) * std::ldexp(side(d), -level - 1);
+            const Real wider = static_cast<Real>(1.0 + static_cast<Real>(factor()));
+            return wider * static_cast<Real>(std::ldexp(side(d), -level - 1));
         };
-        const double r = case_.radius(i);
+        const Real r = static_cast<Real>(case_.radius(i));
         double square = 0;
         for (int d = 0; d < case_.dim; ++d) {
-            const double x = case_.x[i * case_.dim + d],
-                         c = lo_[d] + side(d) * std::ldexp(cell(i, d, level) + 0.5, -level),
-                         room = room_on(d);
+            const Real x = static_cast<Real>(case_.x[i * case_.dim + d]),
+                       middle = static_cast<Real>(std::ldexp(cell(i, d, level) + 0.5, -level)),
+                       reach = middle * static_cast<Real>(side(d)),
+                       c = static_cast<Real>(lo_[d]) + reach, room = room_on(d);
             if (case_.options.extent_norm == ExtentNorm::linf &&
                 (x + r >= c + room || x - r < c - room))
                 return true;
-            square += (x - c) * (x - c);
+            const double away = x - c;
+            square += away * away;
         }
-        const double reach = std::sqrt(square) + r, room = room_on(0);
+        const double reach = std::sqrt(square) + static_cast<double>(r), room = room_on(0);
         return case_.options.extent_norm == ExtentNorm::l2 &&
                reach * reach >= case_.dim * room * room;
     }
+    double factor() const { return *case_.options.stick_out_factor; }
     bool coincide(const SlowBox& box) const {
         for (const int i : box.all) {
             if (case_.radius(i) > 0) return false;
