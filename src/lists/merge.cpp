@@ -27,7 +27,8 @@ void merge(detail::TraversalState& state) {
                   bigger = state.close_bigger.view();
     const Offset n_rows = near.size();
     detail::BoxRows joined("lists/neighbor_source_boxes");
-    const Offset bytes = joined.prepare(n_rows, near.images.size() > 0, [&](Offset i) {
+    const bool periodic = std::ranges::count(state.tree.periodic, true) > 0;
+    const Offset bytes = joined.prepare(n_rows, periodic, [&](Offset i) {
         return row_size(near, i) + row_size(smaller, i) + row_size(bigger, i);
     });
     if (!state.options.budget.allows(bytes))
@@ -54,14 +55,16 @@ void merge(detail::TraversalState& state) {
 }  // namespace
 
 FMMTraversalInfo FMMTraversalInfo::merge_close_lists() const {
-    FMMTraversalInfo merged(*this);
-    if (!state_->has_close) return merged;
-    if (!has_neighbor_source_boxes())
+    if (state_->has_close && !has_neighbor_source_boxes())
         throw Error(Status::not_built,
                     "merge_close_lists: neighbor_source_boxes was not asked for in the last build "
                     "of the traversal");
-    run_kernels("merge_close_lists", [&] { merge(*merged.state_); });
-    return merged;
+    std::optional<FMMTraversalInfo> merged;
+    run_kernels("merged lists", [&] {
+        merged.emplace(*this);
+        if (state_->has_close) merge(*merged->state_);
+    });
+    return *std::move(merged);
 }
 
 }  // namespace connectivity

@@ -47,7 +47,7 @@ FMMTraversalInfo& FMMTraversalInfo::operator=(FMMTraversalInfo other) noexcept {
 FMMTraversalInfo::~FMMTraversalInfo() = default;
 
 void FMMTraversalInfo::rebuild(const TreeView& tree, const TraversalOptions& options) {
-    run_kernels("interaction lists", [&] {
+    run_kernels("lists", [&] {  // short: outside of it a name that needs memory is no Error
         const shim::ProfilingRegion region("lists/rebuild");
         try {
             detail::TraversalBuild build(tree, options, state_->scratch);

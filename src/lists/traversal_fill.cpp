@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "target_walk.hpp"
 #include "traversal_build.hpp"
@@ -8,13 +9,27 @@
 namespace connectivity::detail {
 namespace {
 
-/// Adds an entry behind [begin, end) of a row that is to be ordered by level, the deepest first.
-void put_by_level(const TreeTables& tables, const BoxRows::Out& out, Offset begin, Offset end,
-                  BoxId box, ImageCode image) {
-    const int level = tables.level(box);
-    for (; end > begin && tables.level(out.boxes[end - 1]) < level; --end)
-        out.put(end, out.boxes[end - 1], out.images != nullptr ? out.images[end - 1] : no_image);
-    out.put(end, box, image);
+/// Writes a row ordered by level, the deepest first, and otherwise as each(f) calls f(box, image);
+/// each is called a second time where that is another order.
+template <class Each>
+void put_by_level(const TreeTables& tables, const BoxRows::Out& out, Offset begin,
+                  const Each& each) {
+    std::array<Offset, 257> places;  // [256 - level]: how many, then where the next one goes
+    std::fill_n(places.end() - tables.tree.n_levels, tables.tree.n_levels, 0);
+    const auto place_of = [&](BoxId box) -> Offset& {
+        return places[static_cast<std::size_t>(256 - tables.level(box))];
+    };
+    Offset at = begin;
+    bool ordered = true;
+    each([&](BoxId box, ImageCode image) {
+        ordered &= at == begin || tables.level(out.boxes[at - 1]) >= tables.level(box);
+        out.put(at++, box, image);
+        ++place_of(box);
+    });
+    if (ordered) return;
+    std::exclusive_scan(places.end() - tables.tree.n_levels, places.end(),
+                        places.end() - tables.tree.n_levels, begin);
+    each([&](BoxId box, ImageCode image) { out.put(place_of(box)++, box, image); });
 }
 
 /// Where a chunk of target boxes writes its list 3 of one level.
@@ -88,25 +103,24 @@ void TraversalBuild::fill_siblings(BoxRows& rows) const {
     });
 }
 
-/// Makes rows another time where list 4 takes some of them.
+/// Makes rows another time where list 4 takes some of their entries.
 void TraversalBuild::fill_bigger(BoxRows& rows) const {
     const Offset n = scratch_.target_parents.size();
     fill_rows(rows, n, [&](Offset i, const BoxRows::Out& out, Offset begin) {
         if (near_.row(target_parent(i)).n_from_sep_bigger == 0) return;
-        Offset at = begin;
-        near_.make_row(
-            target_parent(i), [](const Near&) {},
-            [&](BoxId source, ImageCode image) {
-                put_by_level(tables_, out, begin, at++, source, image);
-            });
+        put_by_level(tables_, out, begin, [&](const auto& put) {
+            near_.make_row(
+                target_parent(i), [](const Near&) {}, put);
+        });
     });
 }
 
 void TraversalBuild::fill_close_bigger(BoxRows& rows) const {
     fill_rows(rows, n_targets(), [&](Offset i, const BoxRows::Out& out, Offset begin) {
-        Offset at = begin;
-        for (const Near& e : near_.row(target(i)))
-            if (e.open()) put_by_level(tables_, out, begin, at++, e.box, e.image);
+        put_by_level(tables_, out, begin, [&](const auto& put) {
+            for (const Near& e : near_.row(target(i)))
+                if (e.open()) put(e.box, e.image);
+        });
     });
 }
 

@@ -104,6 +104,11 @@ inline void expect_constant_one(const FMMTraversalInfo& lists, const Rows& small
     const Offset wanted = tree.sources.n * static_cast<Offset>(n_images);
     for (Offset i = 0; i < lists.ntarget_boxes(); ++i) {
         const BoxId t = lists.target_boxes()(i);
+        Row joined = row_of(lists.neighbor_source_boxes(), i);
+        for (const auto& close : {lists.from_sep_close_smaller(), lists.from_sep_close_bigger()})
+            if (close)
+                for (const Entry& e : row_of(*close, i)) joined.push_back(e);
+        ASSERT_EQ(row_of(merged.neighbor_source_boxes(), i), joined) << "target box " << t;
         Offset sum = potential[t];
         for (const BoxId s : merged.neighbor_source_boxes()[i]) sum += own(s);
         for (const Entry& e : smaller_of.at(t)) sum += below(e.box);

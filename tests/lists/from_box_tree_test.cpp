@@ -198,6 +198,36 @@ TEST(DeepTrees, cover_every_pair_once) {
             }
 }
 
+/// Among these are trees where nothing touches and close lists hold all there is.
+TEST(SmallTrees, merged_lists_keep_the_images_where_list_1_was_empty) {
+    int n_empty = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        SlowInput in;
+        in.dim = 1;
+        in.leaf = 1;
+        in.target_radii = true;
+        in.stick_out = 1;
+        in.periodic[0] = true;
+        for (int i = 0; i < 2; ++i) {
+            in.sources.push_back({{0.2 + 0.1 * random.uniform(), 0, 0}});
+            in.targets.push_back({{0.45 + 0.1 * random.uniform(), 0, 0}, 0.02});
+        }
+        TreeOptions options;
+        options.bounding_box = {{}, {1, 0, 0}};
+        const BoxTree tree = built(in, false, options);
+        const FMMTraversalInfo lists(tree.view());
+        n_empty += lists.neighbor_source_boxes().lists.size() == 0 &&
+                   lists.from_sep_close_smaller()->lists.size() +
+                           lists.from_sep_close_bigger()->lists.size() >
+                       0;
+        expect_laws(lists, false);
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(n_empty, 0);
+}
+
 TEST(SmallTrees, have_lists_without_particles_of_either_kind) {
     for (const int n_sources : {0, 1, 7})
         for (const int n_targets : {0, 1, 7})
