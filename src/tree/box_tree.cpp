@@ -147,8 +147,8 @@ BoxTree::BoxTree(BoxTree&&) noexcept = default;
 BoxTree& BoxTree::operator=(BoxTree&&) noexcept = default;
 
 void BoxTree::build(const TreeInput& input, const TreeOptions& options) {
-    check_arguments(input, options);
     run_kernels("box tree", [&] {
+        check_arguments(input, options);
         check_budget(input, options.budget);
         const auto build = [&]<class Real>(Real) {
             if (input.dim == 1) impl_->build<Real, 1>(input, options);

@@ -21,7 +21,7 @@
 
 namespace connectivity::test {
 
-long allocations_left = -1;
+long allocations_left = -1, allocated_bytes = 0;
 
 namespace {
 
@@ -44,7 +44,8 @@ const bool can_fail = true;
 
 namespace {
 
-bool fails_now() {
+bool fails_now(std::size_t bytes) {
+    allocated_bytes += static_cast<long>(bytes);
     if (allocations_left < 0 || allocations_left-- != 0) return false;
     errno = ENOMEM;
     return true;
@@ -64,18 +65,18 @@ void* __libc_calloc(std::size_t n, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 
-void* malloc(std::size_t size) { return fails_now() ? nullptr : __libc_malloc(size); }
+void* malloc(std::size_t size) { return fails_now(size) ? nullptr : __libc_malloc(size); }
 void* calloc(std::size_t n, std::size_t size) {
-    return fails_now() ? nullptr : __libc_calloc(n, size);
+    return fails_now(n * size) ? nullptr : __libc_calloc(n, size);
 }
 void* realloc(void* old, std::size_t size) {
-    return fails_now() ? nullptr : __libc_realloc(old, size);
+    return fails_now(size) ? nullptr : __libc_realloc(old, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-    return fails_now() ? nullptr : __libc_memalign(alignment, size);
+    return fails_now(size) ? nullptr : __libc_memalign(alignment, size);
 }
 int posix_memalign(void** out, std::size_t alignment, std::size_t size) {
-    void* const found = fails_now() ? nullptr : __libc_memalign(alignment, size);
+    void* const found = fails_now(size) ? nullptr : __libc_memalign(alignment, size);
     if (found == nullptr) return ENOMEM;
     *out = found;
     return 0;

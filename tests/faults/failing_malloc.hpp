@@ -8,6 +8,9 @@ namespace connectivity::test {
 /// Allocations until one fails; negative: none will.
 extern long allocations_left;
 
+/// Bytes that were asked for since somebody set it to 0.
+extern long allocated_bytes;
+
 /// Whether allocations can be made to fail here; sanitizers bring a malloc of their own.
 extern const bool can_fail;
 
