@@ -212,7 +212,7 @@ TEST(SmallTrees, merged_lists_keep_the_images_where_list_1_was_empty) {
         in.periodic[0] = true;
         for (int i = 0; i < 2; ++i) {
             in.sources.push_back({{0.2 + 0.1 * random.uniform(), 0, 0}});
-            in.targets.push_back({{0.45 + 0.1 * random.uniform(), 0, 0}, 0.02});
+            in.targets.push_back({{0.95 + 0.04 * random.uniform(), 0, 0}, 0.02});
         }
         TreeOptions options;
         options.bounding_box = {{}, {1, 0, 0}};
