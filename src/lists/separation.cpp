@@ -78,60 +78,58 @@ Separation::Separation(const TreeView& tree, const TraversalOptions& options)
         half_widths_[static_cast<std::size_t>(l)] = std::ldexp(root_extent_, -(l + 1));
 }
 
-/// c(T) - c(S, image).
-Separation::Vector Separation::between(BoxId target, BoxId source, ImageCode image) const {
-    Vector v{};
-    for (int k = 0; k < dim_; ++k) {
-        const Offset axis = k * aligned_;
-        v[static_cast<std::size_t>(k)] = centers_[axis + target] - centers_[axis + source];
-    }
+/// c(S, image), or of T as that image of S sees it.
+Separation::Vector Separation::place(BoxId box, ImageCode image, double sign) const {
+    Vector c{};
+    for (int k = 0; k < dim_; ++k)
+        c[static_cast<std::size_t>(k)] = centers_[Offset{k} * aligned_ + box];
     if (image != no_image) {
         const auto shift = image_shift(image);
-        for (std::size_t k = 0; k < 3; ++k) v[k] -= shift[k] * root_extent_;
+        for (std::size_t k = 0; k < 3; ++k) c[k] += sign * shift[k] * root_extent_;
     }
-    return v;
+    return c;
 }
 
-/// Distance from the particles below a box to a point, given as its offset from the box's centre.
-double Separation::distance(const Side& side, BoxId box, const Vector& to) const {
-    const double r = half_width(box) * side.enlargement;
-    double far = 0;
+/// Distance from the particles below a box to a point. The hull's centre is taken by itself, as
+/// boxtree does: hulls end on centres of boxes, so that rounding decides.
+double Separation::distance(const Side& side, BoxId box, const Vector& point) const {
     // Only of a periodic root box particles stick out by more than the factor, by any length.
     if (crit_ != FromSepSmallerCrit::precise_linf && side.has_extent && levels_[box] == 0)
         return -std::numeric_limits<double>::infinity();
-    if (crit_ == FromSepSmallerCrit::static_l2) {
-        for (const double x : to) far += x * x;
-        return std::sqrt(far) - ball_ * r;
-    }
-    if (crit_ == FromSepSmallerCrit::static_linf) {
-        for (const double x : to) far = std::max(far, std::abs(x));
-        return far - r;
-    }
-    far = -std::numeric_limits<double>::infinity();
+    double far =
+        crit_ == FromSepSmallerCrit::precise_linf ? -std::numeric_limits<double>::infinity() : 0;
     for (int k = 0; k < dim_; ++k) {
         const Offset at = k * aligned_ + box;
-        const double lo = side.hull_min[at], hi = side.hull_max[at];
-        const double off = 0.5 * (lo + hi) - centers_[at];
-        far = std::max(far, std::abs(off - to[static_cast<std::size_t>(k)]) - 0.5 * (hi - lo));
+        const double x = point[static_cast<std::size_t>(k)], away = centers_[at] - x;
+        if (crit_ == FromSepSmallerCrit::static_l2) {
+            far += away * away;
+        } else if (crit_ == FromSepSmallerCrit::static_linf) {
+            far = std::max(far, std::abs(away));
+        } else {
+            const double lo = side.hull_min[at], hi = side.hull_max[at];
+            far = std::max(far, std::abs(0.5 * (lo + hi) - x) - 0.5 * (hi - lo));
+        }
     }
-    return far;
+    const double r = half_width(box) * side.enlargement;
+    if (crit_ == FromSepSmallerCrit::static_l2) return std::sqrt(far) - ball_ * r;
+    return crit_ == FromSepSmallerCrit::static_linf ? far - r : far;
 }
 
 bool Separation::test_smaller(BoxId target, BoxId source, ImageCode image) const {
     if (min_sources_ > 0 && n_sources_below_[source] < min_sources_) return false;
-    Vector to = between(target, source, image);
-    for (double& x : to) x = -x;
     const double r = half_width(source) * sources_.enlargement;
-    return distance(targets_, target, to) - r >= (2 - slack_) * r;
+    return distance(targets_, target, place(source, image, 1)) - r >= (2 - slack_) * r;
 }
 
 bool Separation::test_bigger(BoxId target, BoxId source, ImageCode image) const {
-    const Vector to = between(target, source, image);
+    const Vector t = place(target, image, -1);
     const double reach = 3 * targets_.enlargement * half_width(target),
                  r = half_width(source) * sources_.enlargement;
-    if (sources_have_extent_) return distance(sources_, source, to) >= reach - slack_ * (reach + r);
+    if (sources_have_extent_) return distance(sources_, source, t) >= reach - slack_ * (reach + r);
     double far = 0;
-    for (const double x : to) far = std::max(far, std::abs(x));
+    for (int k = 0; k < dim_; ++k)
+        far = std::max(far, std::abs(t[static_cast<std::size_t>(k)] -
+                                     centers_[Offset{k} * aligned_ + source]));
     return far >= (reach + r) * (1 - slack_);
 }
 

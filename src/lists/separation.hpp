@@ -36,8 +36,8 @@ private:
 
     bool test_smaller(BoxId target, BoxId source, ImageCode image) const;
     bool test_bigger(BoxId target, BoxId source, ImageCode image) const;
-    Vector between(BoxId target, BoxId source, ImageCode image) const;
-    double distance(const Side& side, BoxId box, const Vector& to) const;
+    Vector place(BoxId box, ImageCode image, double sign) const;
+    double distance(const Side& side, BoxId box, const Vector& point) const;
     double half_width(BoxId b) const { return half_widths_[levels_[b]]; }
 
     bool tests_ = false, sources_have_extent_ = false;

@@ -44,7 +44,12 @@ void fill_box(const RawTree& raw, const BoxNumbers& numbers, std::size_t level, 
     for (int d = 0; d < dim; ++d) {
         double& center = arrays.centers(d * aligned + id);
         if (level == 0) {
-            center = arrays.header.bounding_box_min[d] + arrays.header.root_extent / 2;
+            // Rounded as boxtree's: lists compare centres. Sums of float32 are exact enough here.
+            const double lo = arrays.header.bounding_box_min[d];
+            const bool wide = arrays.header.coordinates == CoordinateType::float64;
+            center =
+                lo +
+                (wide ? arrays.header.bounding_box_max[d] - lo : arrays.header.root_extent) / 2;
             continue;
         }
         const double step = std::ldexp(arrays.header.root_extent, -static_cast<int>(level) - 1);
