@@ -13,8 +13,11 @@
 #include <unistd.h>
 
 #include <connectivity/base/runtime.hpp>
+#include <connectivity/io/lists_input.hpp>
 #include <connectivity/io/snapshot.hpp>
+#include <connectivity/lists/traversal.hpp>
 #include <connectivity/map/connectivity_map.hpp>
+#include <connectivity/tree/box_tree.hpp>
 
 #include "hdf5_maker.hpp"
 #include "leaks.hpp"
@@ -23,7 +26,7 @@ namespace connectivity::test {
 namespace {
 
 struct Counts {
-    long long files = 0, opened = 0, lists = 0, built = 0;
+    long long files = 0, opened = 0, lists = 0, built = 0, trees = 0;
 } counts;
 
 std::string path() {
@@ -38,9 +41,11 @@ void at_end() {
     check_for_leaks();
     std::error_code ignored;
     std::filesystem::remove(path(), ignored);
-    std::fprintf(stderr,
-                 "fuzz_files: %lld files; %lld were opened, %lld lists read, %lld maps built\n",
-                 counts.files, counts.opened, counts.lists, counts.built);
+    std::fprintf(
+        stderr,
+        "fuzz_files: %lld files; %lld were opened, %lld lists read, %lld maps and %lld trees "
+        "with interaction lists built\n",
+        counts.files, counts.opened, counts.lists, counts.built, counts.trees);
 }
 
 void make_file(Random& random) {
@@ -50,7 +55,7 @@ void make_file(Random& random) {
         case 1: file.gadget(); break;
         case 2: file.swift(); break;
         case 3: file.h5part(); break;
-        case 4: break;
+        case 4: file.lists_case(); break;
         default: file.node_file(), file.gadget(), file.h5part(); break;
     }
     for (int k = 0; k < 6 && !random.exhausted(); ++k) file.anything();
@@ -98,6 +103,20 @@ void read(const ReadOptions& options, Random& random) {
     if (!lists.empty()) check_map(info, lists, random);
 }
 
+void read_case() {
+    succeeds([] {
+        if (!is_lists_input(path())) return;
+        const ListsInput input = read_lists_input(path());
+        EXPECT_TRUE(input.dim >= 1 && input.dim <= 3);
+        BoxTree tree;
+        tree.build(input.particles(), input.tree);
+        if (input.tree_only) return;
+        const FMMTraversalInfo lists(tree.view(), input.lists);
+        EXPECT_EQ(lists.nboxes(), tree.view().n_boxes);
+        ++counts.trees;
+    });
+}
+
 /// HDF5 keeps what is not closed, so leaks of it are counted here.
 std::array<hsize_t, 7> open_identifiers() {
     std::array<hsize_t, 7> n{};
@@ -134,6 +153,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     make_file(random);
     const auto before = open_identifiers();
     read(options, random);
+    read_case();
     EXPECT_EQ(open_identifiers(), before);
     if (++counts.files % 512 == 0) check_for_leaks();
     return 0;

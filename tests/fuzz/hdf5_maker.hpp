@@ -31,6 +31,7 @@ public:
     void gadget();
     void swift();
     void h5part();
+    void lists_case();
     /// Something anywhere, under a name that means something or none.
     void anything();
 

@@ -81,4 +81,38 @@ void Hdf5Maker::h5part() {
     }
 }
 
+void Hdf5Maker::lists_case() {
+    const hsize_t dim = 1 + random_.below(3);
+    dataset("in_sources", {n_, dim});
+    const bool has_targets = random_.chance(0.6), has_weights = random_.chance(0.2);
+    if (has_targets) {
+        dataset("in_targets", {n_, dim});
+        if (random_.chance(0.4)) dataset("in_source_radii", {n_});
+        if (random_.chance(0.6)) dataset("in_target_radii", {n_});
+    }
+    if (has_weights) dataset("in_refine_weights", {has_targets ? 2 * n_ : n_}, true);
+    const char* entries[] = {
+        "\"kind\": \"non-adaptive\"",
+        "\"kind\": \"adaptive-level-restricted\"",
+        "\"norm\": \"l2\"",
+        "\"n_away\": 2",
+        "\"crit\": \"static_l2\"",
+        "\"crit\": \"static_linf\"",
+        "\"minsrc\": 3",
+        "\"f32\": true",
+        "\"notrav\": true",
+        "\"sof\": 1e300",
+        "\"n_away\": 4294967297",
+        "\"leaf\": null",
+        "\"kind\": []",
+        "\"d\": 2",
+    };
+    std::string params = has_weights ? "{\"maxw\": 9" : "{\"leaf\": 4";
+    if (random_.chance(0.7)) params += ", \"sof\": 0.25";
+    for (int k = 0; k < 3 && random_.chance(0.5); ++k)
+        params += std::string(", ") + random_.pick(entries);
+    if (random_.chance(0.95)) params += "}";
+    if (random_.chance(0.9)) text("/", "params", params);
+}
+
 }  // namespace connectivity::test

@@ -59,6 +59,11 @@ enum class Coincident {
 /// Hulls of each box's particles cost a pass over them.
 enum class Hulls { automatic, always, never };  ///< automatic: if there are radii
 
+/// Corners of a cube.
+struct RootBox {
+    std::array<double, 3> lo{}, hi{};
+};
+
 struct TreeOptions {
     TreeKind kind = TreeKind::adaptive;
     /// The limit: exactly one of the two is given, the second one with refine_weights.
@@ -75,9 +80,7 @@ struct TreeOptions {
     /// their radii; along periodic axes only their centres. Absent: from the lowest corner of the
     /// particles, 1e-4 wider than their widest side; side max(1, |coordinates|) if all are at one
     /// place.
-    struct Box {
-        std::array<double, 3> lo{}, hi{};
-    };
+    using Box = RootBox;
     std::optional<Box> bounding_box;
     std::array<bool, 3> periodic{};  ///< axes on which the root box repeats
     Budget budget;
