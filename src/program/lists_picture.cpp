@@ -250,7 +250,7 @@ std::string Picture::legend(double left) const {
                               styles[k].colour,
                               quoted(fmt::format("{}  ({})", styles[k].name, scene_.counts[k])));
     }
-    return script + ", keyentry with boxes lw 1 lc rgb '#8a8a8a' fs empty title 'no sources'\n";
+    return script + ", keyentry with boxes lw 1 lc rgb '#8a8a8a' fs empty title 'in no list'\n";
 }
 
 std::string Picture::caption() const {
