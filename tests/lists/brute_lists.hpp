@@ -79,6 +79,9 @@ public:
         return v;
     }
 
+    /// Has any decision so far been one of rounding?
+    bool met_a_rounded_tie() const { return rounded_tie_; }
+
 private:
     template <class Is>
     Row select(BoxId t, bool by_level, const Is& is) const {
@@ -148,13 +151,20 @@ private:
                    ? cube - enlarged(radii, x)
                    : std::sqrt(square) - std::sqrt(view_.dim) * enlarged(radii, x);
     }
+    /// Ends of hulls are rounded: what is equal but for that may be decided either way.
+    void note_tie(double distance, double wanted) const {
+        if (distance != wanted && std::abs(distance - wanted) < 1e-12 * view_.root_extent)
+            rounded_tie_ = true;
+    }
     bool meets(BoxId t, Entry s) const {
         if (!extents()) return true;
         const auto& in = tree_.input();
         if (view_.sources.box_counts_cumul(s.box) < options_.from_sep_smaller_min_nsources_cumul)
             return false;
         const double r = enlarged(in.source_radii, s.box);
-        return distance(view_.targets, in.target_radii, t, between(t, s)) >= 3 * r * (1 - 1e-14);
+        const double d = distance(view_.targets, in.target_radii, t, between(t, s));
+        note_tie(d, 3 * r);
+        return d >= 3 * r * (1 - 1e-14);
     }
     bool separated(BoxId t, Entry s) const {
         if (!extents()) return true;
@@ -162,9 +172,11 @@ private:
         const double reach = 3 * enlarged(in.target_radii, t);
         Point v = between(t, s);
         for (double& x : v) x = -x;
-        if (in.source_radii)
-            return distance(view_.sources, true, s.box, v) >=
-                   reach - 1e-14 * tree_.half_width(s.box);
+        if (in.source_radii) {
+            const double d = distance(view_.sources, true, s.box, v);
+            note_tie(d, reach);
+            return d >= reach - 1e-14 * tree_.half_width(s.box);
+        }
         double cube = 0;
         for (const double x : v) cube = std::max(cube, std::abs(x));
         return cube - tree_.half_width(s.box) >= reach * (1 - 1e-14);
@@ -174,6 +186,7 @@ private:
     const TreeView& view_;
     TraversalOptions options_;
     std::vector<ImageCode> images_;
+    mutable bool rounded_tie_ = false;
 };
 
 /// A row of ours.
