@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// What is asked of gravity: an accuracy, and by hand everything that follows from it.
+
+#include <cstdint>
+#include <optional>
+
+#include <connectivity/base/box.hpp>
+#include <connectivity/base/budget.hpp>
+#include <connectivity/base/spaces.hpp>
+
+namespace connectivity {
+
+enum class GravityMethod {
+    automatic,
+    direct,  ///< every pair
+    walk,    ///< multipoles of cells at the particles of a group (tree walk)
+    fmm      ///< multipoles of cells as local expansions of cells (fast multipole method)
+};
+
+/// When the sources in a cell B may act on the particles in a cell (or group) A through B's
+/// expansion of order p. R is the distance of the centres of mass, r_A and r_B reach the farthest
+/// particle from them, rho_B <= r_B is the radius that B's moments have: the largest (P_k /
+/// M_B)^(1/k), k <= p, where P_k is the power of the moments of degree k. Every criterion also asks
+/// for r_A + r_B < R, so that no particle accepts a cell it is in. With E = 8 (r_A + rho_B)^p /
+/// R^p, an estimate of the relative error:
+enum class Acceptance {
+    /// E < epsilon. The error of a particle is then below epsilon * sum m/r², whatever the scene.
+    field,
+    /// E M_B / R² < epsilon * the smallest |a| in A, from `previous_acceleration` or, without one,
+    /// from a solution with a quadrupole walk. Fewer interactions for the same median, a longer
+    /// tail.
+    acceleration,
+    /// r_A + r_B < epsilon R: an opening angle, with the offset of the centre of mass in r_B.
+    geometric
+};
+
+/// r: distance; a pair's force is the derivative of its potential unless said otherwise.
+enum class Softening {
+    /// a = m r / (r² + e²)^(3/2), potential -m / sqrt(r² + e²), e = the larger of the two lengths
+    plummer,
+    /// SPH-EXA: a = m r / max(r, h_i + h_j)³, potential -m r² / max(r, h_i + h_j)³, which is not
+    /// the
+    /// integral of the force inside h_i + h_j
+    sph_exa
+};
+
+/// Of sums over near pairs, in coordinates relative to the target cell.
+enum class NearPrecision { automatic, float32, float64 };
+
+struct GravityOptions {
+    GravityMethod method = GravityMethod::automatic;
+    /// Wanted 99th percentile of |error of a| / |a|, in [1e-12, 0.5]; checked on a sample.
+    double tolerance = 1e-4;
+
+    /// By hand; what is absent is chosen so that the tolerance is met.
+    std::optional<int> order;  ///< of expansions, in [1, max_gravity_order]
+    std::optional<Acceptance> acceptance;
+    std::optional<double> epsilon;     ///< of the acceptance; > 0, geometric: < 1
+    std::optional<std::int32_t> leaf;  ///< most particles in a leaf, >= 1
+    NearPrecision near = NearPrecision::automatic;
+
+    /// Newton's third law to round-off: B acts on A through its expansion only if A does on B. For
+    /// fmm and direct; near pairs are double.
+    bool symmetric = false;
+    Softening softening = Softening::plummer;
+    double constant = 1;  ///< of gravity, > 0
+    /// Open, or periodic on all three axes: images of the box without end and a uniform background
+    /// that makes the mean density 0 (Ewald's sum with conducting surroundings).
+    Domain domain;
+    /// [n] lengths of the accelerations of the step before, for Acceptance::acceleration.
+    ConstView<double> previous_acceleration;
+    int n_samples = 300;  ///< targets summed directly to check the error; 0: no check, max 100000
+    std::uint64_t seed = 1;    ///< of the sample
+    bool error_bound = false;  ///< keep a bound of the error of each particle, see Gravity
+    Budget budget;
+};
+
+constexpr int max_gravity_order = 20;
+
+}  // namespace connectivity
