@@ -2,7 +2,15 @@
 #pragma once
 /// Whether a box is far enough for an expansion: the inequalities of traversal_options.hpp.
 ///
-/// Everything is double; the slack is that of the coordinate type.
+/// The last bit decides about boxes exactly one diameter apart, so this is how they are rounded.
+/// Everything is double; r is the half width enlarged by 1 + s of the box's kind, u is 8 machine
+/// epsilons of the coordinate type, a hull's e is (lo + hi) / 2 and its h (hi - lo) / 2.
+///
+///     list 3                      dist(T, c(S)) - r(S) >= (2 - u) r(S)
+///     list 4, sources with radii  dist(S, c(T)) >= 3 r(T) - u (3 r(T) + r(S))
+///     list 4, points              |c(T) - c(S)| >= (3 r(T) + r(S)) (1 - u)
+///
+/// For an image of S c(S) moves in list 3, and c(T) the other way in list 4.
 
 #include <array>
 

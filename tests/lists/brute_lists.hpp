@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 /// Interaction lists straight from their definitions, by testing every box against every other one
-/// and its images.
+/// and its images. Distances are rounded as separation.hpp says, so that all lists of all trees can
+/// be compared entry by entry.
 
 #include <limits>
 #include <map>
@@ -79,9 +80,6 @@ public:
         return v;
     }
 
-    /// Has any decision so far been one of rounding?
-    bool met_a_rounded_tie() const { return rounded_tie_; }
-
 private:
     template <class Is>
     Row select(BoxId t, bool by_level, const Is& is) const {
@@ -133,28 +131,31 @@ private:
     double enlarged(bool radii, BoxId b) const {
         return tree_.half_width(b) * (radii ? 1 + view_.stick_out_factor : 1);
     }
-    /// Distance from the particles below X, at v from the point, to the point.
-    double distance(const TreeParticles& particles, bool radii, BoxId x, const Point& v) const {
-        const auto crit = options_.from_sep_smaller_crit.value_or(FromSepSmallerCrit::precise_linf);
+    /// c(b), moved by so many root boxes.
+    Point moved(BoxId b, ImageCode image, int sign) const {
+        Point c{};
+        for (int k = 0; k < view_.dim; ++k)
+            c[k] = view_.center(k, b) + sign * image_shift(image)[k] * view_.root_extent;
+        return c;
+    }
+    /// dist(X, c) of traversal_options.hpp, a hull as its middle and half width.
+    double distance(const TreeParticles& particles, bool radii, BoxId x, const Point& c) const {
+        using enum FromSepSmallerCrit;
+        const FromSepSmallerCrit crit = options_.from_sep_smaller_crit.value_or(precise_linf);
         double square = 0, cube = 0, hull = -std::numeric_limits<double>::infinity();
         for (int k = 0; k < view_.dim; ++k) {
             const Offset at = k * view_.aligned_n_boxes + x;
-            const double c = view_.center(k, x), lo = particles.bounding_box_min(at) - c + v[k],
-                         hi = particles.bounding_box_max(at) - c + v[k];
-            hull = std::max({hull, lo, -hi});
-            square += v[k] * v[k];
-            cube = std::max(cube, std::abs(v[k]));
+            const double v = std::abs(view_.center(k, x) - c[k]),
+                         lo = particles.bounding_box_min(at), hi = particles.bounding_box_max(at),
+                         e = (lo + hi) / 2, h = (hi - lo) / 2;
+            hull = std::max(hull, std::abs(e - c[k]) - h);
+            square += v * v;
+            cube = std::max(cube, v);
         }
-        if (crit == FromSepSmallerCrit::precise_linf) return hull;
+        if (crit == precise_linf) return hull;
         if (radii && x == 0) return -1;  // a root's particles stick out by any length
-        return crit == FromSepSmallerCrit::static_linf
-                   ? cube - enlarged(radii, x)
-                   : std::sqrt(square) - std::sqrt(view_.dim) * enlarged(radii, x);
-    }
-    /// Ends of hulls are rounded: what is equal but for that may be decided either way.
-    void note_tie(double distance, double wanted) const {
-        if (distance != wanted && std::abs(distance - wanted) < 1e-12 * view_.root_extent)
-            rounded_tie_ = true;
+        return crit == static_linf ? cube - enlarged(radii, x)
+                                   : std::sqrt(square) - std::sqrt(view_.dim) * enlarged(radii, x);
     }
     bool meets(BoxId t, Entry s) const {
         if (!extents()) return true;
@@ -162,31 +163,28 @@ private:
         if (view_.sources.box_counts_cumul(s.box) < options_.from_sep_smaller_min_nsources_cumul)
             return false;
         const double r = enlarged(in.source_radii, s.box);
-        const double d = distance(view_.targets, in.target_radii, t, between(t, s));
-        note_tie(d, 3 * r);
-        return d >= 3 * r * (1 - 1e-14);
+        return distance(view_.targets, in.target_radii, t, moved(s.box, s.image, 1)) - r >=
+               (2 - slack) * r;
     }
     bool separated(BoxId t, Entry s) const {
         if (!extents()) return true;
         const auto& in = tree_.input();
-        const double reach = 3 * enlarged(in.target_radii, t);
-        Point v = between(t, s);
-        for (double& x : v) x = -x;
-        if (in.source_radii) {
-            const double d = distance(view_.sources, true, s.box, v);
-            note_tie(d, reach);
-            return d >= reach - 1e-14 * tree_.half_width(s.box);
-        }
+        const Point c = moved(t, s.image, -1);
+        const double reach = 3 * enlarged(in.target_radii, t), r = enlarged(in.source_radii, s.box);
+        if (in.source_radii)
+            return distance(view_.sources, true, s.box, c) >= reach - slack * (reach + r);
         double cube = 0;
-        for (const double x : v) cube = std::max(cube, std::abs(x));
-        return cube - tree_.half_width(s.box) >= reach * (1 - 1e-14);
+        for (int k = 0; k < view_.dim; ++k)
+            cube = std::max(cube, std::abs(c[k] - view_.center(k, s.box)));
+        return cube >= (reach + r) * (1 - slack);
     }
+
+    static constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
 
     const SlowTree& tree_;
     const TreeView& view_;
     TraversalOptions options_;
     std::vector<ImageCode> images_;
-    mutable bool rounded_tie_ = false;
 };
 
 /// A row of ours.

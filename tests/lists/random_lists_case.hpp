@@ -11,7 +11,6 @@ namespace connectivity::test {
 struct ListsCase {
     SlowInput tree;
     TraversalOptions options;
-    bool exact_grid = true;  ///< centres are exact, so equalities in criteria are, too
 };
 
 inline std::vector<SlowParticle> random_particles(Random& random, const SlowInput& in, int n,
@@ -47,8 +46,7 @@ inline ListsCase random_lists_case(std::uint64_t seed, bool periodic) {
     in.dim = 1 + random.below(3);
     in.kind = random.pick({SlowKind::adaptive, SlowKind::adaptive, SlowKind::non_adaptive,
                            SlowKind::level_restricted});
-    c.exact_grid = random.chance(0.8);
-    if (!c.exact_grid) in.lo = -0.3, in.extent = 1.7;
+    if (!random.chance(0.8)) in.lo = -0.3, in.extent = 1.7;  // centres are rounded
     const int most = periodic ? 16 : (in.kind == SlowKind::level_restricted ? 25 : 50);
     in.leaf = 1 + random.below(6);
     in.sources_are_targets = random.chance(0.25);
