@@ -8,7 +8,7 @@
 #include <connectivity/base/runtime.hpp>
 #include <connectivity/map/pair_field_base.hpp>
 
-#include "search/first_exception.hpp"
+#include "base/first_exception.hpp"
 
 namespace connectivity {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "overlap.hpp"
 
-#include "search/first_exception.hpp"
+#include "base/first_exception.hpp"
 #include "search/kernels.hpp"
 #include "search/stream_writer.hpp"
 

@@ -11,7 +11,7 @@
 #include <connectivity/map/map_options.hpp>
 
 #include "labels.hpp"
-#include "search/first_exception.hpp"
+#include "base/first_exception.hpp"
 
 namespace connectivity {
 

@@ -7,7 +7,7 @@
 
 #include "pair_filter.hpp"
 #include "prepare.hpp"
-#include "search/first_exception.hpp"
+#include "base/first_exception.hpp"
 
 namespace connectivity {
 

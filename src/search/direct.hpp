@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "first_exception.hpp"
+#include "base/first_exception.hpp"
 #include "products.hpp"
 #include "row_visitor.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "groups.hpp"
 
-#include "first_exception.hpp"
+#include "base/first_exception.hpp"
 
 namespace connectivity::detail {
 

@@ -6,6 +6,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <string>
 
 #include <connectivity/base/error.hpp>
 
@@ -19,12 +20,13 @@ public:
         any_ = true;
     }
     bool any() const { return any_.load(std::memory_order_relaxed); }
-    void rethrow() const {
+    /// `what` begins the sentence where memory ran out.
+    void rethrow(const char* what = "the search, for its candidate lists,") const {
         if (!exception_) return;
         try {
             std::rethrow_exception(exception_);
         } catch (const std::bad_alloc&) {
-            throw Error(Status::memory, "the search ran out of memory for its candidate lists");
+            throw Error(Status::memory, std::string(what) + " ran out of memory");
         }
     }
 
