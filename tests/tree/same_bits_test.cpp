@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same tree with any number of threads. Their number is fixed for a process, so this program
-// runs itself and compares fingerprints.
-#include <iostream>
-#include <sstream>
+// The same tree with any number of threads.
 
 #include <gtest/gtest.h>
 
-#include <connectivity/base/runtime.hpp>
-
 #include <support/hash.hpp>
-#include <support/process.hpp>
+#include <support/thread_bits.hpp>
 #include <tree/tree_case.hpp>
 
 namespace connectivity::test {
@@ -61,27 +56,11 @@ TEST(TreeBits, a_second_time_agrees) {
         value = hash.value();
     }
     EXPECT_EQ(values[0], values[1]);
-    std::cout << "\nfingerprint: " << runtime_threads() << " threads " << std::hex << values[0]
-              << std::endl;
-}
-
-std::string fingerprint(const std::string& threads) {
-    const RunResult run =
-        run_this_test_program("TreeBits.a_second_time_agrees", "OMP_NUM_THREADS=" + threads);
-    EXPECT_EQ(run.status, 0) << run.out;
-    const std::string word = "fingerprint: " + threads + " threads ";
-    const auto at = run.out.find(word);
-    EXPECT_NE(at, std::string::npos) << run.out;
-    return at == std::string::npos ? "" : run.out.substr(at + word.size(), 16);
+    print_fingerprint(values[0]);
 }
 
 TEST(TreeBits, one_two_and_three_threads_agree) {
-    start_runtime();
-    if (runtime_description().find("OpenMP") == std::string::npos)
-        GTEST_SKIP() << "this Kokkos has no OpenMP: " << runtime_description();
-    const std::string one = fingerprint("1");
-    EXPECT_EQ(fingerprint("2"), one);
-    EXPECT_EQ(fingerprint("3"), one);
+    expect_same_bits_with_one_two_and_three_threads("TreeBits.a_second_time_agrees");
 }
 
 }  // namespace
