@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+/// Bodies of the sums over pairs over a type `V` of vector operations. Included once by each
+/// instruction set's file, after its V's; everything lives in an anonymous namespace, so that no
+/// two instruction sets share a function.
+///
+/// V has: T, F (vector of T), lanes, tile (vectors of targets that fit the registers), load, store,
+/// set, add, sub, mul, max, fma, sum (of the lanes), all_zero; inverse_root(d2, r2): root_scale /
+/// sqrt(d2) or 0 where r2 is 0, whose result may be infinite or NaN where d2 is extreme;
+/// exact_inverse_root, the same without a scale and for any d2.
+
+#include "direct_kernels.hpp"
+
+namespace connectivity::detail {
+namespace {
+
+/// Sources whose terms are added up before the sum goes to memory: rounding errors grow with this
+/// number and with the number of blocks, not with their product. Fits the first cache.
+constexpr std::int64_t source_block = 512;
+
+/// A reduction over the lanes costs about as much as so many vectors of pairs.
+constexpr std::int64_t reduction_cost = 4;
+
+template <class V>
+struct Point {
+    typename V::F x, y, z, e;
+};
+
+template <class V>
+struct PairSums {
+    typename V::F p, x, y, z;
+
+    PairSums() : p(V::set(0)), x(p), y(p), z(p) {}
+    bool finite() const {
+        const auto zero = V::set(0);
+        return V::all_zero(V::fma(p, zero, V::fma(x, zero, V::fma(y, zero, V::mul(z, zero)))));
+    }
+};
+
+/// Adds what sources do to targets, lane by lane. Not exact: in the scale of unscaled(), fast,
+/// infinite or NaN if the cube of a root overflows.
+template <class V, PairLaw law, bool exact>
+inline void add_pairs(const Point<V>& target, const Point<V>& source, typename V::F m,
+                      PairSums<V>& sums) {
+    const auto dx = V::sub(source.x, target.x), dy = V::sub(source.y, target.y),
+               dz = V::sub(source.z, target.z);
+    const auto r2 = V::fma(dx, dx, V::fma(dy, dy, V::mul(dz, dz)));
+    auto d2 = r2;
+    if constexpr (law == PairLaw::plummer) {
+        const auto e = V::max(target.e, source.e);
+        d2 = V::fma(e, e, r2);
+    } else if constexpr (law == PairLaw::sph_exa) {
+        const auto e = V::add(target.e, source.e);
+        d2 = V::max(V::mul(e, e), r2);
+    }
+    if constexpr (exact) {
+        const auto r = V::exact_inverse_root(d2, r2), mr = V::mul(m, r), mrr = V::mul(mr, r);
+        sums.p = law == PairLaw::sph_exa ? V::fma(mr, V::mul(V::mul(r2, r), r), sums.p)
+                                         : V::add(sums.p, mr);
+        sums.x = V::fma(mrr, V::mul(dx, r), sums.x);
+        sums.y = V::fma(mrr, V::mul(dy, r), sums.y);
+        sums.z = V::fma(mrr, V::mul(dz, r), sums.z);
+    } else {
+        const auto r = V::inverse_root(d2, r2), mr = V::mul(m, r), f = V::mul(mr, V::mul(r, r));
+        sums.p = law == PairLaw::sph_exa ? V::fma(f, r2, sums.p) : V::add(sums.p, mr);
+        sums.x = V::fma(f, dx, sums.x);
+        sums.y = V::fma(f, dy, sums.y);
+        sums.z = V::fma(f, dz, sums.z);
+    }
+}
+
+/// What the sums have to be multiplied with.
+template <class V, PairLaw law, bool exact>
+struct Unscaled {
+    static constexpr typename V::T root = exact ? 1 : 1 / V::root_scale, a = root * root * root,
+                                   p = law == PairLaw::sph_exa ? a : root;
+};
+
+template <class T>
+NearSources<T> part(const NearSources<T>& s, std::int64_t begin, std::int64_t n) {
+    return {s.x + begin, s.y + begin, s.z + begin, s.m + begin, s.e ? s.e + begin : nullptr, n};
+}
+
+template <class T>
+NearTargets<T> part(const NearTargets<T>& t, std::int64_t begin, std::int64_t n) {
+    return {t.x + begin,
+            t.y + begin,
+            t.z + begin,
+            t.e ? t.e + begin : nullptr,
+            t.p + begin,
+            t.ax + begin,
+            t.ay + begin,
+            t.az + begin,
+            n};
+}
+
+/// Vectors of targets against sources one by one. Leaves the sums alone and returns false if they
+/// are not finite and not `exact`.
+template <class V, PairLaw law, int Tile, bool exact>
+bool add_tile(const NearSources<typename V::T>& s, const NearTargets<typename V::T>& t) {
+    constexpr bool soft = law != PairLaw::newton;
+    Point<V> target[Tile];
+    PairSums<V> sums[Tile];
+    for (int k = 0; k < Tile; ++k) {
+        const int i = k * V::lanes;
+        target[k] = {V::load(t.x + i), V::load(t.y + i), V::load(t.z + i),
+                     soft ? V::load(t.e + i) : V::set(0)};
+    }
+    for (std::int64_t j = 0; j < s.n; ++j) {
+        const Point<V> source{V::set(s.x[j]), V::set(s.y[j]), V::set(s.z[j]),
+                              V::set(soft ? s.e[j] : 0)};
+        const auto m = V::set(s.m[j]);
+        for (int k = 0; k < Tile; ++k) add_pairs<V, law, exact>(target[k], source, m, sums[k]);
+    }
+    if constexpr (!exact)
+        for (const auto& sum : sums)
+            if (!sum.finite()) return false;
+    using Scale = Unscaled<V, law, exact>;
+    const auto p = V::set(Scale::p), a = V::set(Scale::a);
+    for (int k = 0; k < Tile; ++k) {
+        const int i = k * V::lanes;
+        V::store(t.p + i, V::fma(p, sums[k].p, V::load(t.p + i)));
+        V::store(t.ax + i, V::fma(a, sums[k].x, V::load(t.ax + i)));
+        V::store(t.ay + i, V::fma(a, sums[k].y, V::load(t.ay + i)));
+        V::store(t.az + i, V::fma(a, sums[k].z, V::load(t.az + i)));
+    }
+    return true;
+}
+
+/// One target against vectors of sources.
+template <class V, PairLaw law, bool exact>
+bool add_target(const NearSources<typename V::T>& s, const NearTargets<typename V::T>& t) {
+    using T = typename V::T;
+    constexpr bool soft = law != PairLaw::newton;
+    const Point<V> target{V::set(t.x[0]), V::set(t.y[0]), V::set(t.z[0]),
+                          V::set(soft ? t.e[0] : 0)};
+    PairSums<V> sums;
+    const auto add = [&](const T* x, const T* y, const T* z, const T* e, const T* m) {
+        const Point<V> source{V::load(x), V::load(y), V::load(z), soft ? V::load(e) : V::set(0)};
+        add_pairs<V, law, exact>(target, source, V::load(m), sums);
+    };
+    std::int64_t j = 0;
+    for (; j + V::lanes <= s.n; j += V::lanes)
+        add(s.x + j, s.y + j, s.z + j, soft ? s.e + j : nullptr, s.m + j);
+    if (j < s.n) {  // the rest, filled up with copies of the last that have no mass
+        T x[V::lanes], y[V::lanes], z[V::lanes], e[V::lanes], m[V::lanes];
+        for (int k = 0; k < V::lanes; ++k) {
+            const std::int64_t from = j + k < s.n ? j + k : s.n - 1;
+            x[k] = s.x[from], y[k] = s.y[from], z[k] = s.z[from], e[k] = soft ? s.e[from] : 0;
+            m[k] = j + k < s.n ? s.m[from] : 0;
+        }
+        add(x, y, z, e, m);
+    }
+    if (!exact && !sums.finite()) return false;
+    using Scale = Unscaled<V, law, exact>;
+    *t.p += Scale::p * V::sum(sums.p);
+    *t.ax += Scale::a * V::sum(sums.x);
+    *t.ay += Scale::a * V::sum(sums.y);
+    *t.az += Scale::a * V::sum(sums.z);
+    return true;
+}
+
+template <class V, PairLaw law, int Tile>
+inline void add_full_tile(const NearSources<typename V::T>& s,
+                          const NearTargets<typename V::T>& t) {
+    if (!add_tile<V, law, Tile, false>(s, t)) add_tile<V, law, Tile, true>(s, t);
+}
+
+/// Fewer targets than lanes: filled up with copies of the last, or one by one, whatever is less
+/// work.
+template <class V, PairLaw law>
+void add_few(const NearSources<typename V::T>& s, const NearTargets<typename V::T>& t) {
+    using T = typename V::T;
+    if (t.n * (s.n / V::lanes + reduction_cost) <= s.n) {
+        for (std::int64_t i = 0; i < t.n; ++i) {
+            const auto one = part(t, i, 1);
+            if (!add_target<V, law, false>(s, one)) add_target<V, law, true>(s, one);
+        }
+        return;
+    }
+    T x[V::lanes], y[V::lanes], z[V::lanes], e[V::lanes];
+    T p[V::lanes] = {}, ax[V::lanes] = {}, ay[V::lanes] = {}, az[V::lanes] = {};
+    for (int k = 0; k < V::lanes; ++k) {
+        const std::int64_t i = k < t.n ? k : t.n - 1;
+        x[k] = t.x[i], y[k] = t.y[i], z[k] = t.z[i];
+        e[k] = law != PairLaw::newton ? t.e[i] : 0;
+    }
+    add_full_tile<V, law, 1>(s, {x, y, z, e, p, ax, ay, az, V::lanes});
+    for (std::int64_t i = 0; i < t.n; ++i) {
+        t.p[i] += p[i], t.ax[i] += ax[i];
+        t.ay[i] += ay[i], t.az[i] += az[i];
+    }
+}
+
+template <class V, PairLaw law>
+void add_law(const NearSources<typename V::T>& sources, const NearTargets<typename V::T>& t) {
+    for (std::int64_t begin = 0; begin < sources.n; begin += source_block) {
+        const std::int64_t rest = sources.n - begin;
+        const auto s = part(sources, begin, rest < source_block ? rest : source_block);
+        constexpr int tile = V::tile * V::lanes;
+        std::int64_t i = 0;
+        for (; i + tile <= t.n; i += tile) add_full_tile<V, law, V::tile>(s, part(t, i, tile));
+        for (; i + V::lanes <= t.n; i += V::lanes)
+            add_full_tile<V, law, 1>(s, part(t, i, V::lanes));
+        if (i < t.n) add_few<V, law>(s, part(t, i, t.n - i));
+    }
+}
+
+template <class V>
+void add(PairLaw law, const NearSources<typename V::T>& s, const NearTargets<typename V::T>& t) {
+    switch (law) {
+        case PairLaw::newton: return add_law<V, PairLaw::newton>(s, t);
+        case PairLaw::plummer: return add_law<V, PairLaw::plummer>(s, t);
+        case PairLaw::sph_exa: return add_law<V, PairLaw::sph_exa>(s, t);
+    }
+}
+
+}  // namespace
+}  // namespace connectivity::detail
