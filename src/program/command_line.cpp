@@ -13,6 +13,7 @@
 #include <connectivity/base/error.hpp>
 #include <connectivity/base/runtime.hpp>
 
+#include "program/choice.hpp"
 #include "program/commands.hpp"
 #include "program/lists_options.hpp"
 
@@ -58,18 +59,15 @@ void add_lists(CLI::App& sub, PairsOptions& o) {
     const std::map<std::string, ListOrder> orders{{"slot", ListOrder::slot},
                                                   {"key", ListOrder::key}};
     sub.add_flag("--overlap", o.overlap, "Also which nodes see a common node; implies ghost rows");
-    sub.add_option("--intersection", o.intersection,
-                   "Also the common neighbours of each pair that lie between the two (filtered), "
-                   "or all of them (unfiltered); implies ghost rows")
+    add_choice(sub, "--intersection", o.intersection, kinds,
+               "Also the common neighbours of each pair that lie between the two (filtered), "
+               "or all of them (unfiltered); implies ghost rows")
         ->expected(0, 1)
         ->default_str("filtered")
-        ->transform(CLI::CheckedTransformer(kinds).description(""))
         ->type_name("[=filtered|unfiltered]");
-    sub.add_option("--order", o.order,
-                   "slot: by list and node; key: by Morton key, whatever the order in the file; "
-                   "implies ghost rows")
-        ->transform(CLI::CheckedTransformer(orders).description(""))
-        ->type_name("slot|key");
+    add_choice(sub, "--order", o.order, orders,
+               "slot: by list and node; key: by Morton key, whatever the order in the file; "
+               "implies ghost rows");
     sub.add_flag("--cull", o.cull,
                  "Drop ghosts that no internal node interacts with, and renumber the others");
 }
@@ -103,10 +101,8 @@ void add_pairs(CLI::App& app, PairsOptions& o) {
     sub->add_option("--step", o.step, "Step of an H5Part file; default: the last")
         ->check(CLI::NonNegativeNumber)
         ->type_name("K");
-    sub->add_option("--method", o.method,
-                    "automatic, brute, cells, groups or device: the result is the same")
-        ->transform(CLI::CheckedTransformer(methods).description(""))
-        ->type_name("NAME");
+    add_choice(*sub, "--method", o.method, methods,
+               "How neighbours are searched: the result is the same");
     sub->add_option("--threads", o.n_threads, "Threads; default: all cores, or OMP_NUM_THREADS")
         ->check(CLI::PositiveNumber)
         ->type_name("N");

@@ -4,25 +4,13 @@
 #include <limits>
 #include <map>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <connectivity/io/lists_input.hpp>
+
+#include "program/choice.hpp"
 
 namespace connectivity::program {
 
 namespace {
-
-/// An option whose value is one of some names.
-template <class Target, class Enum>
-void add_choice(CLI::App& sub, const std::string& flag, Target& target,
-                const std::map<std::string, Enum>& names, const std::string& text) {
-    std::vector<std::string> words;
-    for (const auto& [name, value] : names) words.push_back(name);
-    sub.add_option(flag, target, text)
-        ->transform(CLI::CheckedTransformer(names).description(""))
-        ->type_name(fmt::format("{}", fmt::join(words, "|")));
-}
 
 void add_tree(CLI::App& sub, ListsOptions& o) {
     constexpr auto most = std::numeric_limits<std::int32_t>::max();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors of the program: one sentence on stderr, an exit status per kind, nothing left behind.
+#include <array>
 #include <fstream>
 #include <limits>
 
@@ -83,6 +84,27 @@ TEST(ExitStatus, usage_errors) {
     for (const auto& arguments : wrong)
         expect_failure(run_program(arguments), Status::argument, {});
     EXPECT_EQ(folder.names(), std::vector<std::string>{"in.h5"});
+}
+
+TEST(ExitStatus, a_word_that_is_no_choice_is_answered_by_the_names_of_all) {
+    const TemporaryFolder folder;
+    write_case(folder / "in.h5", uniform_case(1, {0, 1}, 0.5));
+    const std::string methods = "automatic, brute, cells, device, groups",
+                      kinds = "adaptive, adaptive-level-restricted, non-adaptive";
+    const std::vector<std::array<std::string, 4>> wrong{
+        {"pairs", "--method", "guess", methods},
+        {"pairs", "--method", "0", methods},  // nor are numbers of enumerators choices
+        {"pairs", "--order", "slots", "key, slot"},
+        {"pairs", "--intersection", "some", "filtered, unfiltered"},
+        {"lists", "--kind", "octree", kinds},
+        {"lists", "--kind", "1", kinds},
+        {"lists", "--coincident", "ignore", "error, leaf"}};
+    for (const auto& [command, flag, word, names] : wrong) {
+        const auto outcome = run_program({command, folder / "in.h5", flag + "=" + word});
+        expect_failure(outcome, Status::argument, {});
+        EXPECT_EQ(outcome.err, "connectivity: " + flag + ": '" + word + "', must be one of " +
+                                   names + " (see connectivity --help)\n");
+    }
 }
 
 TEST(ExitStatus, files_that_cannot_be_read) {
