@@ -18,12 +18,15 @@ enum class GravityMethod {
     fmm      ///< multipoles of cells as local expansions of cells (fast multipole method)
 };
 
-/// When the sources in a cell B may act on the particles in a cell (or group) A through B's
-/// expansion of order p. R is the distance of the centres of mass, r_A and r_B reach the farthest
-/// particle from them, rho_B <= r_B is the radius that B's moments have: the largest (P_k /
-/// M_B)^(1/k), k <= p, where P_k is the power of the moments of degree k. Every criterion also asks
-/// for r_A + r_B < R, so that no particle accepts a cell it is in. With E = 8 (r_A + rho_B)^p /
-/// R^p, an estimate of the relative error:
+/// When the expansion of order p of a cell B may act on the particles of a cell (or group) A. R is the
+/// distance of the centres of mass, r_A and r_B reach the farthest particle from them, and rho_B <= r_B
+/// is the radius at which B's masses would have the moment that they have: the q-th root of
+/// sum |m| r^q / sum |m|. What the first neglected terms can be at most, as a share of M_B / R²:
+///
+///     fmm    E = (p + 1) ((r_A + rho_B) / R)^p           q = p      terms n + k <= p are kept
+///     walk   E = (p + 2) (rho_B / (R - r_A))^(p + 1)     q = p + 1
+///
+/// Every criterion also asks for r_A + r_B < R, so that no particle accepts a cell it is in.
 enum class Acceptance {
     /// E < epsilon. The error of a particle is then below epsilon * sum m/r², whatever the scene.
     field,

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tree_sum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <connectivity/base/parallel.hpp>
+
+#include "base/first_exception.hpp"
+#include "upward.hpp"
+
+namespace connectivity::detail {
+
+namespace {
+
+/// A walk's group: targets that share a list. More make lists longer, fewer make more of them.
+constexpr std::int32_t group_size = 64;
+
+/// Pairs of particles that take as long as one expansion, by order, measured; see WalkRule.
+double near_pairs(const TreeSettings& s) {
+    const double speed = s.float32 ? 3 : 1;
+    const double p = s.order;
+    return s.form == FarForm::cell_to_cell ? speed * (10 + 1.2 * p * p)
+                                           : speed * (1 + 0.15 * p * p);
+}
+
+PairLaw law_of(const TreeSettings& settings, const TreeBodies& bodies) {
+    if (bodies.softening == nullptr) return PairLaw::newton;
+    return settings.softening == Softening::plummer ? PairLaw::plummer : PairLaw::sph_exa;
+}
+
+}  // namespace
+
+void TreeSum::plant(const Frame& frame, std::int32_t leaf, const Images& images) {
+    TreeInput input;
+    input.sources = ParticleArray::separate(frame.x.data(), frame.n);
+    TreeOptions options;
+    options.max_particles_in_box = leaf;
+    options.coincident = Coincident::leaf;
+    options.hulls = Hulls::never;
+    Stopwatch watch;
+    tree_.build(input, options);
+    const TreeView& view = tree_.view();
+    ensure_capacity(mass_, "gravity/sorted_masses", frame.n);
+    const bool softened = frame.softening.size() > 0 && frame.max_softening > 0;
+    ensure_capacity(softening_, "gravity/sorted_softening", softened ? frame.n : 0);
+    const std::int32_t* const ids = view.user_source_ids.data();
+    Kokkos::parallel_for("gravity/sort", Kokkos::RangePolicy<HostExec>(0, frame.n),
+                         [&](const Offset i) {
+                             mass_(i) = frame.mass(ids[i]);
+                             if (softened) softening_(i) = frame.softening(ids[i]);
+                         });
+    HostExec().fence();
+    bodies_.n = frame.n;
+    for (int d = 0; d < 3; ++d) bodies_.x[d] = view.sources.positions.data() + d * frame.n;
+    bodies_.mass = mass_.data();
+    bodies_.softening = softened ? softening_.data() : nullptr;
+    report_.entry("tree").ms += watch.ms();
+    const Stopwatch cells_watch;
+    make_cells(view, bodies_, cells_);
+    cells_.order = cells_.degree = 0;
+    images_ = images;
+    has_weakest_ = false;
+    report_.entry("cells").ms += cells_watch.ms();
+}
+
+void TreeSum::set_weakest(const double* accelerations) {
+    ensure_capacity(weakest_, "gravity/weakest", cells_.n);
+    const std::int32_t* const ids = user_ids();
+    for_each_upward("gravity/weakest", cells_, [&](CellId c) {
+        double least = std::numeric_limits<double>::infinity();
+        if (cells_.is_leaf(c))
+            for (std::int32_t i = cells_.first(c); i < cells_.first(c) + cells_.count(c); ++i)
+                least = std::min(least, accelerations[ids[i]]);
+        else
+            for (CellId b = cells_.first_child(c); b < cells_.first_child(c) + cells_.n_children(c);
+                 ++b)
+                least = std::min(least, weakest_(b));
+        weakest_(c) = least;
+    });
+    has_weakest_ = true;
+}
+
+void TreeSum::prepare(const TreeSettings& settings) {
+    const Stopwatch watch;
+    const int degree = far_degree(settings.form, settings.order);
+    if (cells_.degree != degree) make_rho(bodies_, degree, cells_);
+    if (cells_.order != settings.order) make_moments(bodies_, settings.order, cells_);
+    report_.entry("moments").ms += watch.ms();
+}
+
+bool TreeSum::is_unit(CellId c, FarForm form) const {
+    return cells_.is_leaf(c) ||
+           (form == FarForm::cell_to_particles && cells_.count(c) <= group_size);
+}
+
+void TreeSum::take_units(FarForm form) {
+    take_all(cells_, set_);
+    items_.clear();
+    for (CellId c = 0; c < cells_.n; ++c)
+        if (is_unit(c, form) && (c == 0 || !is_unit(cells_.parent(c), form)))
+            items_.push_back({c, cells_.first(c), cells_.count(c), cells_.first(c)});
+    // In tree order, so that items that follow each other share sources.
+    std::sort(items_.begin(), items_.end(),
+              [](const Item& a, const Item& b) { return a.first < b.first; });
+}
+
+void TreeSum::take_particles(FarForm form, const std::vector<std::int32_t>& particles) {
+    take_paths(cells_, particles, set_);
+    items_.clear();
+    for (const std::int32_t i : particles) {
+        CellId c = 0;
+        while (!is_unit(c, form)) {
+            c = cells_.first_child(c);
+            while (i >= cells_.first(c) + cells_.count(c)) ++c;
+        }
+        items_.push_back({c, i, 1, static_cast<std::int64_t>(items_.size())});
+    }
+}
+
+void TreeSum::make_lists(const TreeSettings& settings) {
+    const Stopwatch watch;
+    FarChoice choice = settings.far_choice();
+    choice.weakest = has_weakest_ ? weakest_.data() : nullptr;
+    WalkRule rule;
+    rule.near_pairs = near_pairs(settings);
+    rule.group = group_size;
+    rule.active = set_.mask();
+    lists_.build(cells_, FarTest(cells_, choice), settings.form, rule, images_);
+    report_.entry("lists").ms += watch.ms();
+    if (settings.form == FarForm::cell_to_particles) return;
+    const Stopwatch far_watch;
+    make_locals(cells_, lists_, images_, set_, locals_);
+    report_.entry("far").ms += far_watch.ms();
+}
+
+void TreeSum::add_far(const TreeSettings& settings, const Item& item, int worker,
+                      const Sums& sums) {
+    const std::int32_t i = item.first;
+    const Points points{bodies_.x[0] + i, bodies_.x[1] + i, bodies_.x[2] + i, item.n};
+    const Fields fields{sums.p, sums.ax, sums.ay, sums.az};
+    if (settings.form == FarForm::cell_to_cell)
+        return expansion_kernels().l2p(settings.order, cells_.expansion(item.unit, locals_.data()),
+                                       points, fields);
+    const Offset* const offsets = lists_.far().offset_data();
+    const Offset first = offsets[item.unit], n = offsets[item.unit + 1] - first;
+    expansion_kernels().m2p(settings.order, cells_.arrays(),
+                            unpacked_[worker].of(lists_.far().value_data() + first, n, images_),
+                            points, fields);
+}
+
+void TreeSum::sum_items(const TreeSettings& settings, const Sums& sums) {
+    const Stopwatch watch;
+    near_.resize(static_cast<std::size_t>(n_workers()));
+    for (NearSum& near : near_)
+        near.begin({&bodies_, &cells_, &lists_, &images_, law_of(settings, bodies_),
+                    settings.float32});
+    unpacked_.resize(near_.size());
+    FirstException failure;
+    for_each_dynamic("gravity/near", static_cast<Offset>(items_.size()), [&](int worker, Offset k) {
+        if (failure.any()) return;
+        const Item& item = items_[k];
+        const Sums own = sums.at(item.at);
+        for (double* const to : {own.p, own.ax, own.ay, own.az}) std::fill_n(to, item.n, 0.0);
+        try {
+            near_[worker].collect(item.unit);
+            near_[worker].add(item.first, item.n, own);
+            add_far(settings, item, worker, own);
+        } catch (...) {
+            failure.keep();
+        }
+    });
+    failure.rethrow("gravity, for its lists,");
+    report_.entry("near").ms += watch.ms();
+}
+
+/// Sums over items are those over all particles, or scaled to them.
+TreeWork TreeSum::measure_work(FarForm form) const {
+    const Offset* const near = lists_.near().offset_data();
+    const Offset* const far = lists_.far().offset_data();
+    TreeWork work;
+    double n = 0;
+    for (const Item& item : items_) {
+        n += item.n;
+        for (CellId c = item.unit;; c = cells_.parent(c)) {
+            for (Offset e = near[c]; e < near[c + 1]; ++e)
+                work.near_pairs +=
+                    double(item.n) * cells_.count(Source::cell(lists_.near().value_data()[e]));
+            const double share =
+                form == FarForm::cell_to_cell ? double(item.n) / cells_.count(c) : item.n;
+            work.far_pairs += share * static_cast<double>(far[c + 1] - far[c]);
+            if (c == 0) break;
+        }
+    }
+    const double scale = n > 0 ? static_cast<double>(bodies_.n) / n : 0;
+    return {work.near_pairs * scale, work.far_pairs * scale};
+}
+
+TreeWork TreeSum::sum_all(const TreeSettings& settings, const Sums& sums) {
+    prepare(settings);
+    take_units(settings.form);
+    make_lists(settings);
+    sum_items(settings, sums);
+    return measure_work(settings.form);
+}
+
+TreeWork TreeSum::sum_some(const TreeSettings& settings, const std::vector<std::int32_t>& particles,
+                           const Sums& sums) {
+    prepare(settings);
+    take_particles(settings.form, particles);
+    make_lists(settings);
+    sum_items(settings, sums);
+    return measure_work(settings.form);
+}
+
+Offset TreeSum::bytes() const {
+    return tree_.bytes() + tree_.scratch_bytes() + cells_.bytes() + lists_.bytes() +
+           static_cast<Offset>(
+               (mass_.size() + softening_.size() + weakest_.size() + locals_.size()) *
+               sizeof(double));
+}
+
+}  // namespace connectivity::detail
