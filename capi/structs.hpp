@@ -18,38 +18,20 @@ namespace connectivity::capi {
 /// existed.
 template <class T>
 extern const std::size_t first_size;
-template <>
-inline constexpr std::size_t first_size<conn_context_options> = offsetof(conn_context_options,
-                                                                         budget_bytes) +
-                                                                sizeof(std::int64_t);
-template <>
-inline constexpr std::size_t first_size<conn_map_options> = offsetof(conn_map_options,
-                                                                     budget_bytes) +
-                                                            sizeof(std::int64_t);
-template <>
-inline constexpr std::size_t first_size<conn_estimate> = offsetof(conn_estimate, relative_error) +
-                                                         sizeof(double);
-template <>
-inline constexpr std::size_t first_size<conn_map_info> = offsetof(conn_map_info,
-                                                                  n_report_counters) +
-                                                         sizeof(std::int32_t);
-template <>
-inline constexpr std::size_t first_size<conn_rows_view> = offsetof(conn_rows_view, owner) +
-                                                          sizeof(void*);
-template <>
-inline constexpr std::size_t first_size<conn_pairs_view> = offsetof(conn_pairs_view, owner) +
-                                                           sizeof(void*);
-template <>
-inline constexpr std::size_t first_size<conn_intersection_view> = offsetof(conn_intersection_view,
-                                                                           owner) +
-                                                                  sizeof(void*);
-template <>
-inline constexpr std::size_t first_size<conn_boundary_nodes> = offsetof(conn_boundary_nodes,
-                                                                        global_id) +
-                                                               sizeof(void*);
-template <>
-inline constexpr std::size_t first_size<conn_report_entry> = offsetof(conn_report_entry, reused) +
-                                                             sizeof(std::int32_t);
+#define CONNECTIVITY_FIRST_LAYOUT(Struct, last_member) \
+    template <>                                        \
+    inline constexpr std::size_t first_size<Struct> =  \
+        offsetof(Struct, last_member) + sizeof(Struct::last_member)
+
+CONNECTIVITY_FIRST_LAYOUT(conn_context_options, budget_bytes);
+CONNECTIVITY_FIRST_LAYOUT(conn_map_options, budget_bytes);
+CONNECTIVITY_FIRST_LAYOUT(conn_estimate, relative_error);
+CONNECTIVITY_FIRST_LAYOUT(conn_map_info, n_report_counters);
+CONNECTIVITY_FIRST_LAYOUT(conn_rows_view, owner);
+CONNECTIVITY_FIRST_LAYOUT(conn_pairs_view, owner);
+CONNECTIVITY_FIRST_LAYOUT(conn_intersection_view, owner);
+CONNECTIVITY_FIRST_LAYOUT(conn_boundary_nodes, global_id);
+CONNECTIVITY_FIRST_LAYOUT(conn_report_entry, reused);
 
 /// Larger than any struct will ever be; a size beyond it is garbage.
 constexpr std::size_t largest_struct_size = 4096;

@@ -15,6 +15,7 @@
 #include "arrays.hpp"
 #include "connectivity_lists.h"
 #include "registry.hpp"
+#include "structs.hpp"
 #include "view_structs.hpp"
 
 struct conn_tree final : connectivity::capi::Handle {
@@ -51,21 +52,13 @@ struct conn_lists final : connectivity::capi::Handle {
 
 namespace connectivity::capi {
 
-// All members of their first release, which is this one.
-template <>
-inline constexpr std::size_t first_size<conn_tree_options> = sizeof(conn_tree_options);
-template <>
-inline constexpr std::size_t first_size<conn_tree_input> = sizeof(conn_tree_input);
-template <>
-inline constexpr std::size_t first_size<conn_tree_view> = sizeof(conn_tree_view);
-template <>
-inline constexpr std::size_t first_size<conn_box_list_view> = sizeof(conn_box_list_view);
-template <>
-inline constexpr std::size_t first_size<conn_particles_view> = sizeof(conn_particles_view);
-template <>
-inline constexpr std::size_t first_size<conn_lists_options> = sizeof(conn_lists_options);
-template <>
-inline constexpr std::size_t first_size<conn_classes_view> = sizeof(conn_classes_view);
+CONNECTIVITY_FIRST_LAYOUT(conn_tree_options, budget_bytes);
+CONNECTIVITY_FIRST_LAYOUT(conn_tree_input, refine_weights);
+CONNECTIVITY_FIRST_LAYOUT(conn_tree_view, owner);
+CONNECTIVITY_FIRST_LAYOUT(conn_box_list_view, owner);
+CONNECTIVITY_FIRST_LAYOUT(conn_particles_view, owner);
+CONNECTIVITY_FIRST_LAYOUT(conn_lists_options, budget_bytes);
+CONNECTIVITY_FIRST_LAYOUT(conn_classes_view, owner);
 
 /// The tree behind the handle. Throws Error{null | handle | not_built}.
 const conn_tree& built_tree(const conn_tree* tree);
