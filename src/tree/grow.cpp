@@ -308,12 +308,7 @@ RawTree grow(const Particles<Real, Dim>& particles, const StickOut<Real, Dim>& s
 #define CONNECTIVITY_INSTANTIATE(Real, Dim)                                        \
     template RawTree grow(const Particles<Real, Dim>&, const StickOut<Real, Dim>&, \
                           const GrowOptions&, GrowScratch&);
-CONNECTIVITY_INSTANTIATE(float, 1)
-CONNECTIVITY_INSTANTIATE(float, 2)
-CONNECTIVITY_INSTANTIATE(float, 3)
-CONNECTIVITY_INSTANTIATE(double, 1)
-CONNECTIVITY_INSTANTIATE(double, 2)
-CONNECTIVITY_INSTANTIATE(double, 3)
+CONNECTIVITY_EACH_REAL_AND_DIM(CONNECTIVITY_INSTANTIATE)
 #undef CONNECTIVITY_INSTANTIATE
 
 }  // namespace connectivity::tree_detail

@@ -38,3 +38,8 @@ private:
 };
 
 }  // namespace connectivity::tree_detail
+
+/// What the builder is instantiated for: coordinate types and dimensions.
+#define CONNECTIVITY_EACH_REAL_AND_DIM(instantiate)                                          \
+    instantiate(float, 1) instantiate(float, 2) instantiate(float, 3) instantiate(double, 1) \
+        instantiate(double, 2) instantiate(double, 3)

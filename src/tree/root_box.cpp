@@ -161,12 +161,7 @@ Frame<Real, Dim> root_box(const Particles<Real, Dim>& particles, const TreeOptio
 
 #define CONNECTIVITY_INSTANTIATE(Real, Dim) \
     template Frame<Real, Dim> root_box(const Particles<Real, Dim>&, const TreeOptions&);
-CONNECTIVITY_INSTANTIATE(float, 1)
-CONNECTIVITY_INSTANTIATE(float, 2)
-CONNECTIVITY_INSTANTIATE(float, 3)
-CONNECTIVITY_INSTANTIATE(double, 1)
-CONNECTIVITY_INSTANTIATE(double, 2)
-CONNECTIVITY_INSTANTIATE(double, 3)
+CONNECTIVITY_EACH_REAL_AND_DIM(CONNECTIVITY_INSTANTIATE)
 #undef CONNECTIVITY_INSTANTIATE
 
 }  // namespace connectivity::tree_detail

@@ -94,12 +94,7 @@ void sort_particles(const Particles<Real, Dim>& particles, const RawTree& raw,
 #define CONNECTIVITY_INSTANTIATE(Real, Dim)                                                      \
     template void sort_particles(const Particles<Real, Dim>&, const RawTree&, const BoxNumbers&, \
                                  std::int32_t*, TreeArrays&);
-CONNECTIVITY_INSTANTIATE(float, 1)
-CONNECTIVITY_INSTANTIATE(float, 2)
-CONNECTIVITY_INSTANTIATE(float, 3)
-CONNECTIVITY_INSTANTIATE(double, 1)
-CONNECTIVITY_INSTANTIATE(double, 2)
-CONNECTIVITY_INSTANTIATE(double, 3)
+CONNECTIVITY_EACH_REAL_AND_DIM(CONNECTIVITY_INSTANTIATE)
 #undef CONNECTIVITY_INSTANTIATE
 
 }  // namespace connectivity::tree_detail
