@@ -43,7 +43,9 @@ void collect(int order, const Bodies& bodies, const Expansion& to) {
         Collector<V> collector{sums, V::load_some(bodies.m + first, some), {}};
         if constexpr (Regular) {
             const D unit = V::set(1 / to.scale);
-            for (D& x : r) x = V::mul(x, unit);
+            // Lanes without a particle are at the centre: far from it, in units of a small cell,
+            // they would overflow.
+            for (D& x : r) x = first_lanes<V>(some, V::mul(x, unit), V::set(0));
             regular_harmonics<V>(order, r, collector);
         } else {
             if (some < V::lanes) r[0] = first_lanes<V>(some, r[0], V::set(to.scale));
