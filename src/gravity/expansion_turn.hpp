@@ -49,10 +49,10 @@ inline void turn_about_z(int n, const Complex<V>* power, const typename V::D* in
     out[0] = in[0];
     for (int m = 1; m <= n; ++m) {
         const auto re = in[2 * m - 1], im = in[2 * m];
-        const auto a = V::mul(im, power[m].im), b = V::mul(re, power[m].im);
-        out[2 * m - 1] =
-            Conjugate ? V::fma(re, power[m].re, a) : V::sub(V::mul(re, power[m].re), a);
-        out[2 * m] = Conjugate ? V::sub(V::mul(im, power[m].re), b) : V::fma(im, power[m].re, b);
+        const auto c = power[m].re, s = power[m].im;
+        const auto a = V::mul(re, c), b = V::mul(im, c);
+        out[2 * m - 1] = Conjugate ? V::fma(im, s, a) : V::fnma(im, s, a);
+        out[2 * m] = Conjugate ? V::fnma(re, s, b) : V::fma(re, s, b);
     }
 }
 
