@@ -10,7 +10,7 @@ namespace {
 struct Avx2Double {
     using T = double;
     using F = __m256d;
-    static constexpr int lanes = 4, tile = 2;
+    static constexpr int lanes = 4, tile = 1;
     static constexpr T root_scale = 1;
     static F load(const T* p) { return _mm256_loadu_pd(p); }
     static void store(T* p, F a) { _mm256_storeu_pd(p, a); }
@@ -28,7 +28,8 @@ struct Avx2Double {
         return _mm256_movemask_pd(_mm256_cmp_pd(a, set(0), _CMP_EQ_OQ)) == 0xf;
     }
     static F where_nonzero(F r2, F a) {
-        return _mm256_and_pd(_mm256_cmp_pd(r2, set(0), _CMP_NEQ_UQ), a);
+        const __m256i zero = _mm256_cmpeq_epi64(_mm256_castpd_si256(r2), _mm256_setzero_si256());
+        return _mm256_andnot_pd(_mm256_castsi256_pd(zero), a);
     }
     /// From the 12 bits of a float: with e = 1 - d2 r², 1/sqrt(d2) is r (1 - e)^(-1/2), whose
     /// series ends where e^5 < 2^-52. Infinite or NaN where a float cannot hold d2.
@@ -46,7 +47,7 @@ struct Avx2Double {
 struct Avx2Float {
     using T = float;
     using F = __m256;
-    static constexpr int lanes = 8, tile = 2;
+    static constexpr int lanes = 8, tile = 1;
     static constexpr T root_scale = 2;
     static F load(const T* p) { return _mm256_loadu_ps(p); }
     static void store(T* p, F a) { _mm256_storeu_ps(p, a); }
@@ -65,7 +66,8 @@ struct Avx2Float {
         return _mm256_movemask_ps(_mm256_cmp_ps(a, set(0), _CMP_EQ_OQ)) == 0xff;
     }
     static F where_nonzero(F r2, F a) {
-        return _mm256_and_ps(_mm256_cmp_ps(r2, set(0), _CMP_NEQ_UQ), a);
+        const __m256i zero = _mm256_cmpeq_epi32(_mm256_castps_si256(r2), _mm256_setzero_si256());
+        return _mm256_andnot_ps(_mm256_castsi256_ps(zero), a);
     }
     /// From 12 bits by Newton's step, without its factor 1/2.
     static F inverse_root(F d2, F r2) {

@@ -22,7 +22,9 @@ struct Avx512Double {
     static F fma(F a, F b, F c) { return _mm512_fmadd_pd(a, b, c); }
     static T sum(F a) { return _mm512_reduce_add_pd(a); }
     static bool all_zero(F a) { return _mm512_cmp_pd_mask(a, set(0), _CMP_EQ_OQ) == 0xff; }
-    static __mmask8 nonzero(F a) { return _mm512_cmp_pd_mask(a, set(0), _CMP_NEQ_UQ); }
+    static __mmask8 nonzero(F a) {
+        return _mm512_test_epi64_mask(_mm512_castpd_si512(a), _mm512_castpd_si512(a));
+    }
     /// From 14 bits: with e = 1 - d2 r², 1/sqrt(d2) is r (1 - e)^(-1/2), whose series ends where
     /// e^4 < 2^-52.
     static F inverse_root(F d2, F r2) {
@@ -50,7 +52,9 @@ struct Avx512Float {
     static F fma(F a, F b, F c) { return _mm512_fmadd_ps(a, b, c); }
     static T sum(F a) { return _mm512_reduce_add_ps(a); }
     static bool all_zero(F a) { return _mm512_cmp_ps_mask(a, set(0), _CMP_EQ_OQ) == 0xffff; }
-    static __mmask16 nonzero(F a) { return _mm512_cmp_ps_mask(a, set(0), _CMP_NEQ_UQ); }
+    static __mmask16 nonzero(F a) {
+        return _mm512_test_epi32_mask(_mm512_castps_si512(a), _mm512_castps_si512(a));
+    }
     /// From 14 bits by Newton's step, without its factor 1/2.
     static F inverse_root(F d2, F r2) {
         const F r = _mm512_maskz_rsqrt14_ps(nonzero(r2), d2);

@@ -14,9 +14,9 @@
 namespace connectivity::detail {
 namespace {
 
-/// Sources whose terms are added up before the sum goes to memory: rounding errors grow with this
-/// number and with the number of blocks, not with their product. Fits the first cache.
-constexpr std::int64_t source_block = 512;
+/// Terms are added up in three steps, because the rounding errors of a sum grow with the number of
+/// its terms: over a block of sources in registers, over a run of blocks, over the runs.
+constexpr std::int64_t source_block = 256, source_run = 32 * source_block;
 
 /// A reduction over the lanes costs about as much as so many vectors of pairs.
 constexpr std::int64_t reduction_cost = 4;
@@ -206,12 +206,33 @@ void add_law(const NearSources<typename V::T>& sources, const NearTargets<typena
     }
 }
 
+/// More than a run of sources: runs on some targets at a time.
+template <class V, PairLaw law>
+void add_runs(const NearSources<typename V::T>& s, const NearTargets<typename V::T>& t) {
+    if (s.n <= source_run) return add_law<V, law>(s, t);
+    constexpr std::int64_t n_together = 128;
+    for (std::int64_t first = 0; first < t.n; first += n_together) {
+        const auto to = part(t, first, t.n - first < n_together ? t.n - first : n_together);
+        for (std::int64_t begin = 0; begin < s.n; begin += source_run) {
+            const std::int64_t rest = s.n - begin;
+            typename V::T p[n_together] = {}, ax[n_together] = {}, ay[n_together] = {},
+                          az[n_together] = {};
+            add_law<V, law>(part(s, begin, rest < source_run ? rest : source_run),
+                            {to.x, to.y, to.z, to.e, p, ax, ay, az, to.n});
+            for (std::int64_t i = 0; i < to.n; ++i) {
+                to.p[i] += p[i], to.ax[i] += ax[i];
+                to.ay[i] += ay[i], to.az[i] += az[i];
+            }
+        }
+    }
+}
+
 template <class V>
 void add(PairLaw law, const NearSources<typename V::T>& s, const NearTargets<typename V::T>& t) {
     switch (law) {
-        case PairLaw::newton: return add_law<V, PairLaw::newton>(s, t);
-        case PairLaw::plummer: return add_law<V, PairLaw::plummer>(s, t);
-        case PairLaw::sph_exa: return add_law<V, PairLaw::sph_exa>(s, t);
+        case PairLaw::newton: return add_runs<V, PairLaw::newton>(s, t);
+        case PairLaw::plummer: return add_runs<V, PairLaw::plummer>(s, t);
+        case PairLaw::sph_exa: return add_runs<V, PairLaw::sph_exa>(s, t);
     }
 }
 
