@@ -154,8 +154,8 @@ void TreeSum::sum_items(const TreeSettings& settings, const Sums& sums) {
     const Stopwatch watch;
     near_.resize(static_cast<std::size_t>(n_workers()));
     for (NearSum& near : near_)
-        near.begin({&bodies_, &cells_, &lists_, &images_, law_of(settings, bodies_),
-                    settings.float32});
+        near.begin(
+            {&bodies_, &cells_, &lists_, &images_, law_of(settings, bodies_), settings.float32});
     unpacked_.resize(near_.size());
     FirstException failure;
     for_each_dynamic("gravity/near", static_cast<Offset>(items_.size()), [&](int worker, Offset k) {
@@ -212,6 +212,39 @@ TreeWork TreeSum::sum_some(const TreeSettings& settings, const std::vector<std::
     make_lists(settings);
     sum_items(settings, sums);
     return measure_work(settings.form);
+}
+
+void TreeSum::measure_scales(std::vector<double>& field, std::vector<double>& potential) const {
+    field.assign(items_.size(), 0.0);
+    potential.assign(items_.size(), 0.0);
+    const auto add = [&](std::size_t k, double mass, double x, double y, double z, int image) {
+        const std::int32_t i = items_[k].first;
+        const double* const shift = images_.shift.data() + 3 * image;
+        const double dx = x + shift[0] - bodies_.x[0][i], dy = y + shift[1] - bodies_.x[1][i],
+                     dz = z + shift[2] - bodies_.x[2][i];
+        const double r2 = dx * dx + dy * dy + dz * dz;
+        if (r2 == 0) return;
+        field[k] += std::abs(mass) / r2;
+        potential[k] += std::abs(mass) / std::sqrt(r2);
+    };
+    const Csr &near = lists_.near(), &far = lists_.far();
+    for_each_dynamic("gravity/scales", static_cast<Offset>(items_.size()), [&](int, Offset k) {
+        for (CellId a = items_[k].unit;; a = cells_.parent(a)) {
+            for (Offset e = near.offset_data()[a]; e < near.offset_data()[a + 1]; ++e) {
+                const Slot s = near.value_data()[e];
+                const CellId b = Source::cell(s);
+                for (std::int32_t j = cells_.first(b); j < cells_.first(b) + cells_.count(b); ++j)
+                    add(k, bodies_.mass[j], bodies_.x[0][j], bodies_.x[1][j], bodies_.x[2][j],
+                        Source::image(s));
+            }
+            for (Offset e = far.offset_data()[a]; e < far.offset_data()[a + 1]; ++e) {
+                const CellId b = Source::cell(far.value_data()[e]);
+                add(k, cells_.mass(b), cells_.x(0, b), cells_.x(1, b), cells_.x(2, b),
+                    Source::image(far.value_data()[e]));
+            }
+            if (a == 0) break;
+        }
+    });
 }
 
 Offset TreeSum::bytes() const {

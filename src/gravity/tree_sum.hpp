@@ -58,6 +58,10 @@ public:
     TreeWork sum_some(const TreeSettings& settings, const std::vector<std::int32_t>& particles,
                       const Sums& sums);
 
+    /// After `sum_some`: sums of |m|/r² and |m|/r at the same particles, with the mass of a far
+    /// cell at its centre.
+    void measure_scales(std::vector<double>& field, std::vector<double>& potential) const;
+
     const Cells& cells() const { return cells_; }
     const TreeBodies& bodies() const { return bodies_; }
     const std::int32_t* user_ids() const { return tree_.view().user_source_ids.data(); }

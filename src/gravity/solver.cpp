@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <connectivity/base/parallel.hpp>
+
+namespace connectivity::detail {
+
+namespace {
+
+/// Near sums in single precision are wrong by about 1e-6 of the sum of their terms.
+constexpr double float32_tolerance = 3e-5;
+/// Share of the tolerance that the far images of a periodic box may take.
+constexpr double lattice_share = 1e-3;
+constexpr int most_repeats = 4;
+
+/// Storage for n values: the old one if it is large enough and nobody else holds it.
+View<double> spare(const View<double>& old, const char* label, Offset n) {
+    if (n <= static_cast<Offset>(old.size()) && old.use_count() <= 1) return old;
+    return allocate<double>(label, n);
+}
+
+/// A solution with these is good to a per cent: lengths of forces for Acceptance::acceleration.
+TreeSettings rough_settings() {
+    TreeSettings settings;
+    settings.order = 3;
+    settings.epsilon = 0.3;
+    return settings;
+}
+
+}  // namespace
+
+PairLaw Solver::law(const GravityOptions& options) const {
+    if (!(frame_.max_softening > 0)) return PairLaw::newton;
+    return options.softening == Softening::plummer ? PairLaw::plummer : PairLaw::sph_exa;
+}
+
+void Solver::make_lattice(double tolerance) {
+    images_ = Images{};
+    if (!frame_.periodic) {
+        lattice_.reset();
+        return;
+    }
+    const double accuracy = std::clamp(tolerance * lattice_share, 1e-11, 1e-6);
+    if (lattice_ == nullptr || !lattice_->serves(frame_.box, accuracy))
+        lattice_ = std::make_unique<LatticeField>(frame_.box, accuracy);
+    const auto& near = lattice_->near_images();
+    images_.n = static_cast<int>(near.size());
+    images_.shift.clear();
+    for (const auto& image : near)
+        for (int d = 0; d < 3; ++d) images_.shift.push_back(image[d] * frame_.box[d]);
+    const double* const x = frame_.x.data();
+    lattice_->gather({x, x + frame_.n, x + 2 * frame_.n, frame_.mass.data(), frame_.n});
+}
+
+/// What is not summed over images, at all particles in the order of the sums.
+void Solver::add_lattice() {
+    const Stopwatch watch;
+    const Offset n = frame_.n;
+    const double* x[3];
+    for (int d = 0; d < 3; ++d)
+        x[d] = user_ids_ == nullptr ? frame_.x.data() + d * n : tree_.bodies().x[d];
+    const Sums sums = sums_.sums();
+    lattice_->add({x[0], x[1], x[2], n}, {sums.p, sums.ax, sums.ay, sums.az});
+    report_.entry("lattice").ms += watch.ms();
+}
+
+void Solver::solve_direct(const GravityOptions& options, GravityInfo& info) {
+    const Stopwatch watch;
+    const Offset n = frame_.n;
+    const double* const x = frame_.x.data();
+    sums_.resize(n);
+    const Sums sums = sums_.sums();
+    Kokkos::deep_copy(View<double>(sums.p, static_cast<std::size_t>(4 * n)), 0.0);
+    for (int image = 0; image < images_.n; ++image) {
+        const double* const s = images_.shift.data() + 3 * image;
+        direct_sum(law(options),
+                   {x, x + n, x + 2 * n, frame_.mass.data(), frame_.softening.data(), n},
+                   {.n = n, .shift = {-s[0], -s[1], -s[2]}}, {sums.p, sums.ax, sums.ay, sums.az},
+                   scratch_);
+    }
+    user_ids_ = nullptr;
+    info.method = GravityMethod::direct;
+    info.n_near = n * n * images_.n;
+    report_.entry("direct").ms += watch.ms();
+}
+
+TreeSettings Solver::first_settings(const GravityOptions& o) const {
+    TreeSettings s;
+    s.form = o.method == GravityMethod::walk ? FarForm::cell_to_particles : FarForm::cell_to_cell;
+    s.order = o.order.value_or(usual_order(s.form, o.tolerance));
+    s.acceptance = o.acceptance.value_or(Acceptance::field);
+    s.symmetric = o.symmetric;
+    s.softening = o.softening;
+    s.softening_error = 0.3 * o.tolerance;
+    s.float32 =
+        o.near == NearPrecision::float32 ||
+        (o.near == NearPrecision::automatic && !o.symmetric && o.tolerance >= float32_tolerance);
+    s.epsilon = o.epsilon.value_or(usual_epsilon(s, o.tolerance));
+    return s;
+}
+
+void Solver::find_weakest(const GravityOptions& options, const TreeSettings& settings) {
+    if (settings.acceptance != Acceptance::acceleration) return;
+    const Offset n = frame_.n;
+    scratch_.resize(static_cast<std::size_t>(n));
+    if (options.previous_acceleration.size() > 0) {
+        const double unit = options.constant * frame_.mass_unit / frame_.length / frame_.length;
+        for (Offset i = 0; i < n; ++i) scratch_[i] = options.previous_acceleration(i) / unit;
+    } else {
+        tree_.sum_all(rough_settings(), sums_.sums());
+        for (Offset k = 0; k < n; ++k) scratch_[tree_.user_ids()[k]] = sums_.acceleration(k);
+    }
+    tree_.set_weakest(scratch_.data());
+}
+
+TreeWork Solver::sum_until_reached(const GravityOptions& options, TreeSettings& settings,
+                                   GravityInfo& info) {
+    for (int k = 0;; ++k) {
+        const TreeWork work = tree_.sum_all(settings, sums_.sums());
+        if (sample_.n() == 0) return work;
+        const SampleErrors errors = sample_.errors_among(sums_);
+        info.acceleration = errors.acceleration;
+        info.field = errors.field;
+        info.potential = errors.potential;
+        const double excess = errors.acceleration.p99 / options.tolerance;
+        info.reached = excess <= 1;
+        if (info.reached || options.epsilon || k + 1 == most_repeats) return work;
+        settings.epsilon *= 0.3 / excess;
+        settings.float32 = false;
+    }
+}
+
+bool Solver::solve_by_cells(const GravityOptions& options, GravityInfo& info) {
+    TreeSettings settings = first_settings(options);
+    tree_.plant(frame_, options.leaf.value_or(usual_leaf(settings)), images_);
+    sums_.resize(frame_.n);
+    find_weakest(options, settings);
+    const Stopwatch watch;
+    const bool may_fit = !options.epsilon && options.n_samples > 0;
+    sample_.draw(tree_.bodies(), law(options), images_, lattice_.get(), options.n_samples,
+                 options.seed);
+    report_.entry("sample").ms += watch.ms();
+    if (may_fit) {
+        const Stopwatch fit;
+        const TreeWork promised = fit_epsilon(tree_, sample_, options.tolerance, settings, trial_);
+        report_.entry("fit").ms += fit.ms();
+        const auto n = static_cast<double>(frame_.n);
+        if (options.method == GravityMethod::automatic &&
+            cost_of(settings, promised, frame_.n) > n * n * images_.n)
+            return false;
+    }
+    const TreeWork work = sum_until_reached(options, settings, info);
+    user_ids_ = tree_.user_ids();
+    info.method = settings.form == FarForm::cell_to_cell ? GravityMethod::fmm : GravityMethod::walk;
+    info.order = settings.order;
+    info.acceptance = settings.acceptance;
+    info.epsilon = settings.epsilon;
+    info.near = settings.float32 ? NearPrecision::float32 : NearPrecision::float64;
+    info.n_samples = sample_.n();
+    info.n_near = static_cast<Offset>(work.near_pairs);
+    info.n_far = static_cast<Offset>(work.far_pairs);
+    return true;
+}
+
+/// Sums are finite; in the host's units they may not be.
+void Solver::check_finite(double force, double potential) const {
+    double largest_force = 0, largest_potential = 0;
+    const Sums sums = sums_.sums();
+    for (Offset k = 0; k < frame_.n; ++k) {
+        largest_potential = std::max(largest_potential, std::abs(sums.p[k]));
+        for (const double* const a : {sums.ax, sums.ay, sums.az})
+            largest_force = std::max(largest_force, std::abs(a[k]));
+    }
+    if (!std::isfinite(largest_force * force) || !std::isfinite(largest_potential * potential))
+        throw Error(Status::nonfinite, "forces overflow: the largest is " + number(largest_force) +
+                                           " times " + number(force) +
+                                           " in the units of the particles, must be below 1.8e308");
+}
+
+void Solver::hand_over(const GravityOptions& options, const GravityInfo& info, Solution& solution) {
+    const Stopwatch watch;
+    const Offset n = frame_.n;
+    const double potential = options.constant * frame_.mass_unit / frame_.length;
+    const double force = potential / frame_.length;
+    if (n > 0) check_finite(force, potential);
+    auto a = spare(solution.acceleration, "gravity/acceleration", 3 * n);
+    auto p = spare(solution.potential, "gravity/potential", n);
+    const Sums sums = sums_.sums();
+    const std::int32_t* const ids = user_ids_;
+    Kokkos::parallel_for("gravity/hand_over", Kokkos::RangePolicy<HostExec>(0, n),
+                         [=](const Offset k) {
+                             const Offset i = ids == nullptr ? k : ids[k];
+                             a(3 * i) = force * sums.ax[k];
+                             a(3 * i + 1) = force * sums.ay[k];
+                             a(3 * i + 2) = force * sums.az[k];
+                             p(i) = -potential * sums.p[k];
+                         });
+    HostExec().fence();
+    solution.n = n;
+    solution.acceleration = a;
+    solution.potential = p;
+    solution.info = info;
+    report_.entry("hand over").ms = watch.ms();
+    solution.report = report_;
+}
+
+Offset Solver::bytes() const {
+    return tree_.bytes() + sums_.bytes() + trial_.bytes() +
+           static_cast<Offset>((frame_.x.size() + frame_.mass.size() + frame_.softening.size() +
+                                scratch_.capacity()) *
+                               sizeof(double)) +
+           (lattice_ != nullptr ? lattice_->bytes() : 0);
+}
+
+void Solver::solve(const GravityParticles& particles, const GravityOptions& options,
+                   Solution& solution) {
+    report_ = Report();
+    tree_.report() = Report();
+    const Stopwatch watch;
+    make_frame(particles, options, frame_);
+    report_.entry("frame").ms = watch.ms();
+    make_lattice(options.tolerance);
+    GravityInfo info;
+    const bool direct = options.method == GravityMethod::direct || frame_.n < 2 ||
+                        (options.method == GravityMethod::automatic && !options.order &&
+                         frame_.n < direct_below(options.tolerance));
+    if (direct || !solve_by_cells(options, info)) solve_direct(options, info);
+    if (lattice_ != nullptr) add_lattice();
+    for (const auto& entry : tree_.report().entries()) report_.entry(entry.product) = entry;
+    hand_over(options, info, solution);
+}
+
+}  // namespace connectivity::detail
