@@ -10,7 +10,7 @@ namespace {
 struct Avx2Double {
     using T = double;
     using F = __m256d;
-    static constexpr int lanes = 4, tile = 1;
+    static constexpr int lanes = 4, tile = 1, step = 2;
     static constexpr T root_scale = 1;
     static F load(const T* p) { return _mm256_loadu_pd(p); }
     static void store(T* p, F a) { _mm256_storeu_pd(p, a); }
@@ -47,7 +47,7 @@ struct Avx2Double {
 struct Avx2Float {
     using T = float;
     using F = __m256;
-    static constexpr int lanes = 8, tile = 1;
+    static constexpr int lanes = 8, tile = 1, step = 2;
     static constexpr T root_scale = 2;
     static F load(const T* p) { return _mm256_loadu_ps(p); }
     static void store(T* p, F a) { _mm256_storeu_ps(p, a); }

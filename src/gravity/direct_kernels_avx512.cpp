@@ -10,7 +10,7 @@ namespace {
 struct Avx512Double {
     using T = double;
     using F = __m512d;
-    static constexpr int lanes = 8, tile = 2;
+    static constexpr int lanes = 8, tile = 2, step = 1;
     static constexpr T root_scale = 1;
     static F load(const T* p) { return _mm512_loadu_pd(p); }
     static void store(T* p, F a) { _mm512_storeu_pd(p, a); }
@@ -40,7 +40,7 @@ struct Avx512Double {
 struct Avx512Float {
     using T = float;
     using F = __m512;
-    static constexpr int lanes = 16, tile = 2;
+    static constexpr int lanes = 16, tile = 2, step = 1;
     static constexpr T root_scale = 2;
     static F load(const T* p) { return _mm512_loadu_ps(p); }
     static void store(T* p, F a) { _mm512_storeu_ps(p, a); }

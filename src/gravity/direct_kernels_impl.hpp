@@ -4,10 +4,10 @@
 /// instruction set's file, after its V's; everything lives in an anonymous namespace, so that no
 /// two instruction sets share a function.
 ///
-/// V has: T, F (vector of T), lanes, tile (vectors of targets that fit the registers), load, store,
-/// set, add, sub, mul, max, fma, sum (of the lanes), all_zero; inverse_root(d2, r2): root_scale /
-/// sqrt(d2) or 0 where r2 is 0, whose result may be infinite or NaN where d2 is extreme;
-/// exact_inverse_root, the same without a scale and for any d2.
+/// V has: T, F (vector of T), lanes, tile (vectors of targets that fit the registers), step
+/// (sources at a time), load, store, set, add, sub, mul, max, fma, sum (of the lanes), all_zero;
+/// inverse_root(d2, r2): root_scale / sqrt(d2) or 0 where r2 is 0, whose result may be infinite or
+/// NaN where d2 is extreme; exact_inverse_root, the same without a scale and for any d2.
 
 #include "direct_kernels.hpp"
 
@@ -106,12 +106,16 @@ bool add_tile(const NearSources<typename V::T>& s, const NearTargets<typename V:
         target[k] = {V::load(t.x + i), V::load(t.y + i), V::load(t.z + i),
                      soft ? V::load(t.e + i) : V::set(0)};
     }
-    for (std::int64_t j = 0; j < s.n; ++j) {
+    const auto add = [&](std::int64_t j) {
         const Point<V> source{V::set(s.x[j]), V::set(s.y[j]), V::set(s.z[j]),
                               V::set(soft ? s.e[j] : 0)};
         const auto m = V::set(s.m[j]);
         for (int k = 0; k < Tile; ++k) add_pairs<V, law, exact>(target[k], source, m, sums[k]);
-    }
+    };
+    std::int64_t j = 0;
+    for (; j + V::step <= s.n; j += V::step)
+        for (int k = 0; k < V::step; ++k) add(j + k);
+    for (; j < s.n; ++j) add(j);
     if constexpr (!exact)
         for (const auto& sum : sums)
             if (!sum.finite()) return false;

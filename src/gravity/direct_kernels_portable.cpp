@@ -16,7 +16,7 @@ template <class Number>
 struct Portable {
     using T = Number;
     typedef T F __attribute__((vector_size(16)));
-    static constexpr int lanes = 16 / sizeof(T), tile = 2;
+    static constexpr int lanes = 16 / sizeof(T), tile = 2, step = 1;
     static constexpr T root_scale = 1;
     static F load(const T* p) {
         F a;
