@@ -13,91 +13,92 @@ class CellWalk {
 public:
     using Worker = CellLists::Worker;
 
-    CellWalk(const Cells& cells, const FarTest& test, FarForm form, const WalkRule& rule,
-             const Images& images)
-        : k_(cells),
-          test_(test),
+    CellWalk(const FarTest& test, const WalkRule& rule, const Images& images)
+        : test_(test),
           rule_(rule),
           shift_(images.shift.data()),
-          groups_(form == FarForm::cell_to_particles) {
-        for (int d = 0; d < 3; ++d) centre_[d] = cells.centre.data() + Offset{d} * cells.n;
-    }
+          groups_(test.form() == FarForm::cell_to_particles) {}
 
     bool is_active(CellId a) const { return rule_.active == nullptr || rule_.active[a] != 0; }
     /// Targets are not divided further.
     bool is_terminal(CellId a) const {
-        return k_.is_leaf(a) || (groups_ && k_.count(a) <= rule_.group);
+        return test_[a].n_children == 0 || (groups_ && test_[a].count <= rule_.group);
     }
-    /// Only terminal cells have rows in a walk of groups.
-    bool takes_entries(CellId a) const { return !groups_ || is_terminal(a); }
 
     /// Sorts candidates [first, last) of `list` into rows of `a` and, at the end of w.deferred,
     /// what is left for a's children.
     void sort(CellId a, const std::vector<std::int32_t>& list, std::size_t first, std::size_t last,
               Worker& w) const {
-        const bool terminal = is_terminal(a);
-        if (!takes_entries(a)) {
-            for (std::size_t k = first; k < last; ++k) {
-                const std::int32_t candidate = list[k];
-                w.deferred.push_back(candidate);
-            }
+        const Target t{a, is_terminal(a), test_[a]};
+        if (groups_ && !t.terminal) {  // only groups have rows
+            for (std::size_t k = first; k < last; ++k) w.deferred.push_back(entry(list, k));
             return;
         }
         for (std::size_t k = first; k < last; ++k) {
-            w.open.push_back(list[k]);
+            place(t, entry(list, k), w);
             while (!w.open.empty()) {
                 const std::int32_t s = w.open.back();
                 w.open.pop_back();
-                place(a, terminal, s, w);
+                place(t, s, w);
             }
         }
     }
 
 private:
-    double distance2(CellId a, CellId b, int image) const {
+    struct Target {
+        CellId id;
+        bool terminal;
+        WalkCell cell;
+    };
+    /// By value: the list may be the one that grows.
+    static std::int32_t entry(const std::vector<std::int32_t>& list, std::size_t k) {
+        return list[k];
+    }
+    double distance2(const WalkCell& a, const WalkCell& b, int image) const {
         const double* const shift = shift_ + 3 * image;
         double d2 = 0;
         for (int d = 0; d < 3; ++d) {
-            const double x = centre_[d][a] - (centre_[d][b] + shift[d]);
+            const double x = a.x[d] - (b.x[d] + shift[d]);
             d2 += x * x;
         }
         return d2;
     }
-    bool is_cheap_near(CellId a, CellId b) const {
-        const double n = k_.count(b);
-        return (groups_ ? n : n * k_.count(a)) < rule_.near_pairs;
+    bool is_cheap_near(const WalkCell& a, const WalkCell& b) const {
+        const double n = b.count;
+        return (groups_ ? n : n * a.count) < rule_.near_pairs;
     }
     /// Whether the source is to be divided, not the target. Symmetric, so that lists are if the
     /// test is.
-    bool divides_source(CellId a, CellId b) const {
-        if (k_.radius(a) != k_.radius(b)) return k_.radius(b) > k_.radius(a);
-        return b > a;
+    bool divides_source(const Target& t, CellId b, const WalkCell& source) const {
+        if (t.cell.radius != source.radius) return source.radius > t.cell.radius;
+        return b > t.id;
     }
-    void place(CellId a, bool terminal, std::int32_t s, Worker& w) const {
+    void place(const Target& t, std::int32_t s, Worker& w) const {
         const CellId b = Source::cell(s);
         const int image = Source::image(s);
-        const bool far = test_(a, b, distance2(a, b, image));
-        if (is_cheap_near(a, b) || (!far && terminal && k_.is_leaf(b))) {
+        const WalkCell& source = test_[b];
+        const bool is_leaf = source.n_children == 0;
+        if (is_cheap_near(t.cell, source)) {
             w.near.push_back(s);
-        } else if (far) {
+        } else if (test_(t.id, b, distance2(t.cell, source, image))) {
             w.far.push_back(s);
-        } else if (a == b && !terminal) {
-            divide(b, image, w.deferred);
-        } else if (terminal || (!k_.is_leaf(b) && divides_source(a, b))) {
-            divide(b, image, w.open);
+        } else if (t.terminal && is_leaf) {
+            w.near.push_back(s);
+        } else if (t.id == b && !t.terminal) {
+            divide(source, image, w.deferred);
+        } else if (t.terminal || (!is_leaf && divides_source(t, b, source))) {
+            divide(source, image, w.open);
         } else {
             w.deferred.push_back(s);
         }
     }
-    void divide(CellId b, int image, std::vector<std::int32_t>& out) const {
-        for (CellId c = k_.first_child(b); c < k_.first_child(b) + k_.n_children(b); ++c)
+    static void divide(const WalkCell& source, int image, std::vector<std::int32_t>& out) {
+        for (CellId c = source.first_child; c < source.first_child + source.n_children; ++c)
             out.push_back(Source::pack(c, image));
     }
 
-    const Cells& k_;
     const FarTest& test_;
     const WalkRule& rule_;
-    const double* centre_[3];
     const double* shift_;
     bool groups_;
 };
@@ -109,13 +110,13 @@ constexpr Offset n_tasks = 128;
 
 }  // namespace
 
-void CellLists::build(const Cells& cells, const FarTest& test, FarForm form, const WalkRule& rule,
+void CellLists::build(const Cells& cells, const FarTest& test, const WalkRule& rule,
                       const Images& images) {
     if (cells.n > Source::max_cells)
         throw Error(Status::too_many, "the tree has " + std::to_string(cells.n) +
                                           " cells, must be at most " +
                                           std::to_string(Source::max_cells));
-    const CellWalk walk(cells, test, form, rule, images);
+    const CellWalk walk(test, rule, images);
     workers_.resize(static_cast<std::size_t>(n_workers()));
     for (Worker& w : workers_)
         for (auto* list : {&w.far, &w.near, &w.open, &w.deferred}) list->clear();

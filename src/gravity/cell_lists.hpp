@@ -65,8 +65,7 @@ struct WalkRule {
 class CellLists {
 public:
     /// Throws Error{memory, too_many}; the lists are then empty.
-    void build(const Cells& cells, const FarTest& test, FarForm form, const WalkRule& rule,
-               const Images& images);
+    void build(const Cells& cells, const FarTest& test, const WalkRule& rule, const Images& images);
 
     const Csr& far() const { return far_; }
     const Csr& near() const { return near_; }

@@ -127,7 +127,7 @@ void TreeSum::make_lists(const TreeSettings& settings) {
     rule.near_pairs = near_pairs(settings);
     rule.group = group_size;
     rule.active = set_.mask();
-    lists_.build(cells_, FarTest(cells_, choice), settings.form, rule, images_);
+    lists_.build(cells_, FarTest(cells_, choice), rule, images_);
     report_.entry("lists").ms += watch.ms();
     if (settings.form == FarForm::cell_to_particles) return;
     const Stopwatch far_watch;
