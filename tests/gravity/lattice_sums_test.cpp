@@ -160,7 +160,7 @@ TEST(WrapIntoBox, is_in_the_box_from_any_distance) {
 TEST(WrapIntoBox, moves_by_whole_lengths) {
     // A float times any number of boxes is exact in long double.
     const float length = 0.7F;
-    for (const double x : {1e6, -1e6, 123456.789, -0.25}) {
+    for (const double x : {7e9 + 0.25, -3e10, 123456.789, -0.25}) {
         const long double boxes_away = std::floor(static_cast<long double>(x) / length);
         EXPECT_EQ(detail::wrap_into_box(x, 0, length),
                   static_cast<double>(x - boxes_away * length));
