@@ -39,28 +39,38 @@ void NearSum::add(std::int32_t first, std::int32_t n, const Sums& sums) {
     if (of_.law == PairLaw::plummer) add_coincident(first, n, sums);
 }
 
-void NearSum::add64(std::int32_t first, std::int32_t n, const Sums& sums) {
-    shifted_.resize(3 * static_cast<std::size_t>(n));
-    const double* e = of_.bodies->softening != nullptr ? of_.bodies->softening + first : nullptr;
-    NearTargets<double> to{of_.bodies->x[0] + first, of_.bodies->x[1] + first, of_.bodies->x[2] + first, e, sums.p,
-                           sums.ax,         sums.ay,         sums.az,         n};
-    int image = 0;
+/// Sources as they are, x, y, z, mass, softening, one array after the other: one long call of the
+/// kernel costs less than many short ones, by more than the copy.
+void NearSum::gather64() {
+    const auto n = static_cast<std::size_t>(n_sources_);
+    const TreeBodies& b = *of_.bodies;
+    doubles_.resize(5 * n);
+    std::size_t at = 0;
     for (const Run& run : runs_) {
-        if (run.image != image) {  // the targets move the other way
-            image = run.image;
-            for (int d = 0; d < 3; ++d)
-                for (std::int32_t k = 0; k < n; ++k)
-                    shifted_[d * n + k] = of_.bodies->x[d][first + k] - of_.images->shift[3 * image + d];
-            to.x = shifted_.data();
-            to.y = to.x + n;
-            to.z = to.y + n;
+        const auto rows = static_cast<std::size_t>(run.n);
+        for (std::size_t d = 0; d < 3; ++d) {
+            const double shift = of_.images->shift[3 * run.image + d];
+            const double* const x = b.x[d] + run.first;
+            double* const to = doubles_.data() + d * n + at;
+            for (std::size_t k = 0; k < rows; ++k) to[k] = x[k] + shift;
         }
-        direct_kernels().add64(
-            of_.law,
-            {of_.bodies->x[0] + run.first, of_.bodies->x[1] + run.first, of_.bodies->x[2] + run.first, of_.bodies->mass + run.first,
-             of_.bodies->softening != nullptr ? of_.bodies->softening + run.first : nullptr, run.n},
-            to);
+        std::copy_n(b.mass + run.first, rows, doubles_.data() + 3 * n + at);
+        if (b.softening != nullptr)
+            std::copy_n(b.softening + run.first, rows, doubles_.data() + 4 * n + at);
+        at += rows;
     }
+}
+
+void NearSum::add64(std::int32_t first, std::int32_t n, const Sums& sums) {
+    gather64();
+    const TreeBodies& b = *of_.bodies;
+    const auto rows = static_cast<std::size_t>(n_sources_);
+    const double* const s = doubles_.data();
+    direct_kernels().add64(of_.law,
+                           {s, s + rows, s + 2 * rows, s + 3 * rows, s + 4 * rows, n_sources_},
+                           {b.x[0] + first, b.x[1] + first, b.x[2] + first,
+                            b.softening != nullptr ? b.softening + first : nullptr, sums.p,
+                            sums.ax, sums.ay, sums.az, n});
 }
 
 /// Sources as floats: x, y, z, mass, softening, one after the other.

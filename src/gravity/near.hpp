@@ -48,6 +48,7 @@ private:
     };
     void add64(std::int32_t first, std::int32_t n, const Sums& sums);
     void add32(std::int32_t first, std::int32_t n, const Sums& sums);
+    void gather64();
     void gather32(const double centre[3], double unit);
     void add_coincident(std::int32_t first, std::int32_t n, const Sums& sums) const;
 
@@ -55,7 +56,7 @@ private:
     CellId cell_ = 0;
     std::int64_t n_sources_ = 0;
     std::vector<Run> runs_;
-    std::vector<double> shifted_;
+    std::vector<double> doubles_;
     std::vector<float> floats_, targets_;
 };
 
