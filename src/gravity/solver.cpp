@@ -154,6 +154,7 @@ bool Solver::solve_by_cells(const GravityOptions& options, GravityInfo& info) {
     }
     const TreeWork work = sum_until_reached(options, settings, info);
     user_ids_ = tree_.user_ids();
+    if (options.error_bound) tree_.bound_errors(settings, bounds_.data());
     info.method = settings.form == FarForm::cell_to_cell ? GravityMethod::fmm : GravityMethod::walk;
     info.order = settings.order;
     info.acceptance = settings.acceptance;
@@ -188,8 +189,11 @@ void Solver::hand_over(const GravityOptions& options, const GravityInfo& info, S
     if (n > 0) check_finite(force, potential);
     auto a = spare(solution.acceleration, "gravity/acceleration", 3 * n);
     auto p = spare(solution.potential, "gravity/potential", n);
+    const auto bound = spare(solution.bound, "gravity/error_bound", options.error_bound ? n : 0);
+    const bool has_bound = options.error_bound;
     const Sums sums = sums_.sums();
     const std::int32_t* const ids = user_ids_;
+    const double* const bounds = bounds_.data();
     Kokkos::parallel_for("gravity/hand_over", Kokkos::RangePolicy<HostExec>(0, n),
                          [=](const Offset k) {
                              const Offset i = ids == nullptr ? k : ids[k];
@@ -197,11 +201,14 @@ void Solver::hand_over(const GravityOptions& options, const GravityInfo& info, S
                              a(3 * i + 1) = force * sums.ay[k];
                              a(3 * i + 2) = force * sums.az[k];
                              p(i) = -potential * sums.p[k];
+                             if (has_bound) bound(i) = force * bounds[k];
                          });
     HostExec().fence();
     solution.n = n;
     solution.acceleration = a;
     solution.potential = p;
+    solution.bound = bound;
+    solution.has_bound = has_bound;
     solution.info = info;
     report_.entry("hand over").ms = watch.ms();
     solution.report = report_;
@@ -223,6 +230,8 @@ void Solver::solve(const GravityParticles& particles, const GravityOptions& opti
     make_frame(particles, options, frame_);
     report_.entry("frame").ms = watch.ms();
     make_lattice(options.tolerance);
+    ensure_capacity(bounds_, "gravity/bounds", options.error_bound ? frame_.n : 0);
+    if (options.error_bound) Kokkos::deep_copy(bounds_, 0.0);
     GravityInfo info;
     const bool direct = options.method == GravityMethod::direct || frame_.n < 2 ||
                         (options.method == GravityMethod::automatic && !options.order &&

@@ -45,6 +45,7 @@ private:
     TreeSum tree_;
     Sample sample_;
     SumArrays sums_, trial_;
+    View<double> bounds_;  ///< [n] where asked for, in the order of the sums
     Images images_;
     std::unique_ptr<LatticeField> lattice_;
     const std::int32_t* user_ids_ = nullptr;  ///< of sums; null: in the host's order

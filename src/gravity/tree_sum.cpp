@@ -8,6 +8,7 @@
 #include <connectivity/base/parallel.hpp>
 
 #include "base/first_exception.hpp"
+#include "error_bound.hpp"
 #include "upward.hpp"
 
 namespace connectivity::detail {
@@ -119,15 +120,19 @@ void TreeSum::take_particles(FarForm form, const std::vector<std::int32_t>& part
     }
 }
 
-void TreeSum::make_lists(const TreeSettings& settings) {
-    const Stopwatch watch;
+FarChoice TreeSum::far_choice(const TreeSettings& settings) const {
     FarChoice choice = settings.far_choice();
     choice.weakest = has_weakest_ ? weakest_.data() : nullptr;
+    return choice;
+}
+
+void TreeSum::make_lists(const TreeSettings& settings) {
+    const Stopwatch watch;
     WalkRule rule;
     rule.near_pairs = near_pairs(settings);
     rule.group = group_size;
     rule.active = set_.mask();
-    lists_.build(cells_, FarTest(cells_, choice), rule, images_);
+    lists_.build(cells_, FarTest(cells_, far_choice(settings)), rule, images_);
     report_.entry("lists").ms += watch.ms();
     if (settings.form == FarForm::cell_to_particles) return;
     const Stopwatch far_watch;
@@ -247,11 +252,16 @@ void TreeSum::measure_scales(std::vector<double>& field, std::vector<double>& po
     });
 }
 
+void TreeSum::bound_errors(const TreeSettings& settings, double* bounds) {
+    detail::bound_errors(cells_, lists_, images_, far_choice(settings), bounds_);
+    for (const Item& item : items_) std::fill_n(bounds + item.first, item.n, bounds_(item.unit));
+}
+
 Offset TreeSum::bytes() const {
     return tree_.bytes() + tree_.scratch_bytes() + cells_.bytes() + lists_.bytes() +
-           static_cast<Offset>(
-               (mass_.size() + softening_.size() + weakest_.size() + locals_.size()) *
-               sizeof(double));
+           static_cast<Offset>((mass_.size() + softening_.size() + weakest_.size() +
+                                locals_.size() + bounds_.size()) *
+                               sizeof(double));
 }
 
 }  // namespace connectivity::detail

@@ -62,6 +62,9 @@ public:
     /// cell at its centre.
     void measure_scales(std::vector<double>& field, std::vector<double>& potential) const;
 
+    /// After `sum_all`: bounds [n] of the errors of accelerations, in tree order; error_bound.hpp.
+    void bound_errors(const TreeSettings& settings, double* bounds);
+
     const Cells& cells() const { return cells_; }
     const TreeBodies& bodies() const { return bodies_; }
     const std::int32_t* user_ids() const { return tree_.view().user_source_ids.data(); }
@@ -83,6 +86,7 @@ private:
     void make_lists(const TreeSettings& settings);
     void sum_items(const TreeSettings& settings, const Sums& sums);
     void add_far(const TreeSettings& settings, const Item& item, int worker, const Sums& sums);
+    FarChoice far_choice(const TreeSettings& settings) const;
     TreeWork measure_work(FarForm form) const;
 
     BoxTree tree_;
@@ -93,7 +97,7 @@ private:
     CellLists lists_;
     CellSet set_;
     Images images_;
-    View<double> locals_;
+    View<double> locals_, bounds_;
     std::vector<Item> items_;
     std::vector<NearSum> near_;  ///< one a worker
     std::vector<UnpackedList> unpacked_;
