@@ -27,6 +27,16 @@ struct Avx2 {
         return _mm256_blendv_pd(no, yes, _mm256_cmp_pd(a, b, _CMP_LE_OQ));
     }
     static D rsqrt(D a) { return _mm256_div_pd(set(1), _mm256_sqrt_pd(a)); }
+    static D gather(const double* base, const std::int32_t* at) {
+        return _mm256_set_pd(base[at[3]], base[at[2]], base[at[1]], base[at[0]]);
+    }
+    static constexpr int columns = 4;
+    static void gather_columns(const double* const* row, int first, D* out) {
+        D a[4];
+        for (int k = 0; k < 4; ++k) a[k] = load(row[k] + first);
+        transpose(a);
+        for (int k = 0; k < 4; ++k) out[k] = a[k];
+    }
     static void transpose(D (&a)[lanes]) {
         const D p = _mm256_unpacklo_pd(a[0], a[1]), q = _mm256_unpackhi_pd(a[0], a[1]),
                 r = _mm256_unpacklo_pd(a[2], a[3]), s = _mm256_unpackhi_pd(a[2], a[3]);

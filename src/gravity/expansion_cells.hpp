@@ -13,34 +13,37 @@
 namespace connectivity::detail {
 namespace {
 
-/// Geometry of a vector of cells: where they are from `centre` (sign = 1), or it from them (-1).
+/// A vector of cells: where they are from a centre. Lanes without a cell repeat the first with
+/// weight 0; others have weight 1.
 template <class V>
 struct Lanes {
     using D = typename V::D;
     int some;
     std::int32_t id[V::lanes];
-    D r[3], scale;
+    D r[3], scale, weight;
 
-    /// Lanes without a cell are at (0, 0, 1) with scale 1.
-    Lanes(const CellArrays& cells, const CellList& list, std::int64_t first, const double* centre,
-          double sign) {
-        double at[4][V::lanes];
+    Lanes(const CellArrays& cells, const CellList& list, std::int64_t first, const double* centre) {
         some = left<V>(list.n, first);
-        for (int k = 0; k < V::lanes; ++k) {
-            double c[3] = {centre[0], centre[1], centre[2] + sign};
-            if (k < some) place(cells, list, first + k, c);
-            id[k] = list.id[first + (k < some ? k : 0)];
-            at[3][k] = k < some ? cells.scale[id[k]] : 1;
-            for (int a = 0; a < 3; ++a) at[a][k] = sign * (c[a] - centre[a]);
+        const double* const position[3] = {cells.x, cells.y, cells.z};
+        for (int k = 0; k < V::lanes; ++k) id[k] = list.id[first + (k < some ? k : 0)];
+        for (int a = 0; a < 3; ++a) r[a] = V::sub(V::gather(position[a], id), V::set(centre[a]));
+        if (list.image != nullptr) {
+            std::int32_t at[V::lanes];
+            for (int k = 0; k < V::lanes; ++k) at[k] = 3 * list.image[first + (k < some ? k : 0)];
+            for (int a = 0; a < 3; ++a) r[a] = V::add(r[a], V::gather(list.shift + a, at));
         }
-        for (int a = 0; a < 3; ++a) r[a] = V::load(at[a]);
-        scale = V::load(at[3]);
+        scale = V::gather(cells.scale, id);
+        weight = first_lanes<V>(some, V::set(1), V::set(0));
     }
 
     void gather(const CellArrays& cells, int n, D* out) const {
         const double* row[V::lanes];
         for (int k = 0; k < V::lanes; ++k) row[k] = cells.coefficients + id[k] * cells.stride;
-        gather_rows<V>(row, some, n, out);
+        gather_rows<V>(row, n, out);
+    }
+    /// The direction from the cells to the centre.
+    void turn_round() {
+        for (D& x : r) x = V::sub(V::set(0), x);
     }
 };
 
@@ -84,14 +87,15 @@ void m2m(int order, const CellArrays& cells, const CellList& children, const Exp
     Coefficients<V> in, turned, sums;
     for (int k = 0; k < n; ++k) sums[k] = V::set(0);
     for (std::int64_t first = 0; first < children.n; first += V::lanes) {
-        const Lanes<V> lanes(cells, children, first, parent.centre, 1);
+        const Lanes<V> lanes(cells, children, first, parent.centre);
         lanes.gather(cells, n, in);
-        const Frame<V> frame(order, lanes.r);
+        Frame<V> frame;
+        frame.set(order, lanes.r);
         const D unit = V::set(1 / parent.scale);
         const D r2 = V::fma(lanes.r[0], lanes.r[0],
                             V::fma(lanes.r[1], lanes.r[1], V::mul(lanes.r[2], lanes.r[2])));
         D ratio[max_expansion_order + 1], power[max_expansion_order + 1];
-        powers<V>(order, V::set(1), V::mul(lanes.scale, unit), ratio);
+        powers<V>(order, lanes.weight, V::mul(lanes.scale, unit), ratio);
         shift_powers<V>(order, V::mul(V::mul(r2, frame.inverse), unit), power);
         for (int k = 0; k <= order; ++k) {
             turn_to_axis<V>(k, swaps.moments, frame, k, in + k * k, turned + k * k);
@@ -115,14 +119,15 @@ void l2l(int order, const Expansion& parent, const CellArrays& cells, const Cell
     const int n = n_coefficients(order);
     Coefficients<V> in, turned;
     for (std::int64_t first = 0; first < children.n; first += V::lanes) {
-        const Lanes<V> lanes(cells, children, first, parent.centre, 1);
+        const Lanes<V> lanes(cells, children, first, parent.centre);
         for (int k = 0; k < n; ++k) in[k] = V::set(parent.coefficients[k]);
-        const Frame<V> frame(order, lanes.r);
+        Frame<V> frame;
+        frame.set(order, lanes.r);
         const D unit = V::set(1 / parent.scale);
         const D r2 = V::fma(lanes.r[0], lanes.r[0],
                             V::fma(lanes.r[1], lanes.r[1], V::mul(lanes.r[2], lanes.r[2])));
         D ratio[max_expansion_order + 1], power[max_expansion_order + 1];
-        powers<V>(order, V::set(1), V::mul(lanes.scale, unit), ratio);
+        powers<V>(order, lanes.weight, V::mul(lanes.scale, unit), ratio);
         shift_powers<V>(order, V::mul(V::mul(r2, frame.inverse), unit), power);
         for (int k = 0; k <= order; ++k)
             turn_to_axis<V>(k, swaps.locals, frame, k, in + k * k, turned + k * k);
@@ -168,11 +173,13 @@ void m2l(int order, const CellArrays& cells, const CellList& sources, const Expa
     Coefficients<V> in, turned, sums;
     for (int k = 0; k < n; ++k) sums[k] = V::set(0);
     for (std::int64_t first = 0; first < sources.n; first += V::lanes) {
-        const Lanes<V> lanes(cells, sources, first, target.centre, -1);
+        Lanes<V> lanes(cells, sources, first, target.centre);
+        lanes.turn_round();
         lanes.gather(cells, n, in);
-        const Frame<V> frame(order, lanes.r);
+        Frame<V> frame;
+        frame.set(order, lanes.r);
         D from[max_expansion_order + 1], to[max_expansion_order + 1];
-        powers<V>(order, V::set(1), V::mul(lanes.scale, frame.inverse), from);
+        powers<V>(order, lanes.weight, V::mul(lanes.scale, frame.inverse), from);
         powers<V>(order, frame.inverse, V::mul(V::set(target.scale), frame.inverse), to);
         for (int k = 0; k <= order; ++k)
             turn_to_axis<V>(k, swaps.moments, frame, least(k, order - k), in + k * k,

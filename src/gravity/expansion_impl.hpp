@@ -13,7 +13,7 @@ template <class V>
 void any_m2l(int order, const CellArrays& cells, const CellList& sources, const Expansion& target) {
     using M2l = void (*)(const CellArrays&, const CellList&, const Expansion&);
     constexpr M2l fixed[] = {
-        nullptr,           m2l_turned<V, 1>,  m2l_turned<V, 2>,  m2l_turned<V, 3>, m2l_turned<V, 4>,
+        nullptr,           m2l_direct<V, 1>,  m2l_direct<V, 2>,  m2l_direct<V, 3>, m2l_turned<V, 4>,
         m2l_turned<V, 5>,  m2l_turned<V, 6>,  m2l_turned<V, 7>,  m2l_turned<V, 8>, m2l_turned<V, 9>,
         m2l_turned<V, 10>, m2l_turned<V, 11>, m2l_turned<V, 12>,
     };

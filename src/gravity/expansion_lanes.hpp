@@ -46,17 +46,10 @@ inline void add_sums(const typename V::D* sums, int n, double* out) {
     }
 }
 
-/// Coefficients of `some` rows in the lanes; other lanes are 0. Reads whole vectors of a row.
+/// The first n coefficients of a row per lane, and up to 3 more.
 template <class V>
-inline void gather_rows(const double* const* row, int some, int n, typename V::D* out) {
-    using D = typename V::D;
-    for (int first = 0; first < n; first += V::lanes) {
-        D block[V::lanes];
-        for (int k = 0; k < V::lanes; ++k)
-            block[k] = k < some ? V::load(row[k] + first) : V::set(0);
-        V::transpose(block);
-        for (int k = 0; k < V::lanes; ++k) out[first + k] = block[k];
-    }
+inline void gather_rows(const double* const* row, int n, typename V::D* out) {
+    for (int first = 0; first < n; first += V::columns) V::gather_columns(row, first, out + first);
 }
 
 /// Adds the lanes to `some` rows.

@@ -25,6 +25,16 @@ struct Portable {
     static D fnma(D a, D b, D c) { return c - a * b; }
     static D select_le(D a, D b, D yes, D no) { return a <= b ? yes : no; }
     static D rsqrt(D a) { return D{1 / __builtin_sqrt(a[0]), 1 / __builtin_sqrt(a[1])}; }
+    static D gather(const double* base, const std::int32_t* at) {
+        return D{base[at[0]], base[at[1]]};
+    }
+    static constexpr int columns = 2;
+    static void gather_columns(const double* const* row, int first, D* out) {
+        D a[2] = {load(row[0] + first), load(row[1] + first)};
+        transpose(a);
+        out[0] = a[0];
+        out[1] = a[1];
+    }
     static void transpose(D (&a)[lanes]) {
         const D first{a[0][0], a[1][0]}, second{a[0][1], a[1][1]};
         a[0] = first;

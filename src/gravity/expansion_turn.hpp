@@ -21,7 +21,7 @@ struct Frame {
     D inverse;  ///< of the distance; 0 where it is 0
 
     /// Directions (x, y, z); a null vector counts as the axis z.
-    Frame(int order, const D (&r)[3]) {
+    void set(int order, const D (&r)[3]) {
         const D zero = V::set(0), one = V::set(1);
         const D rho2 = V::fma(r[0], r[0], V::mul(r[1], r[1])), r2 = V::fma(r[2], r[2], rho2);
         // next to the axis the azimuth is lost, and does not matter
