@@ -21,7 +21,7 @@ struct Avx2 {
 }  // namespace
 
 void lattice_kernel_avx2(int order, const double* sums, const double* moments, double* locals) {
-    apply_lattice<Avx2, 2>(order, sums, moments, locals);
+    apply_lattice<Avx2>(order, sums, moments, locals);
 }
 
 }  // namespace connectivity::detail

@@ -21,7 +21,7 @@ struct Avx512 {
 }  // namespace
 
 void lattice_kernel_avx512(int order, const double* sums, const double* moments, double* locals) {
-    apply_lattice<Avx512, 1>(order, sums, moments, locals);
+    apply_lattice<Avx512>(order, sums, moments, locals);
 }
 
 }  // namespace connectivity::detail

@@ -48,53 +48,60 @@ inline void make_terms(int order, const double* sums, LatticeTerm* terms) {
             }
 }
 
-/// One coefficient (j, q) of `vectors` vectors of lanes.
-template <class V, int vectors>
-inline void add_local(int order, int j, int q, const LatticeTerm* terms, const double* moments,
-                      double* locals) {
+/// Coefficients (j, q) ... (j, q + columns - 1) of one vector of lanes. Columns share the loads of
+/// moments, and sums run in four parts each, so that additions need not wait for each other.
+template <class V, int columns>
+inline void add_locals(int order, int j, int q, const LatticeTerm* terms, const double* moments,
+                       double* locals) {
     using D = typename V::D;
-    D re[vectors], im[vectors], re2[vectors], im2[vectors];
-    for (int v = 0; v < vectors; ++v) re[v] = im[v] = re2[v] = im2[v] = V::set(0);
+    D re[columns], im[columns], re2[columns], im2[columns];
+    for (int c = 0; c < columns; ++c) re[c] = im[c] = re2[c] = im2[c] = V::set(0);
     for (int k = 0; k <= order - j; ++k) {
-        const LatticeTerm* const t = terms + lattice_term(j + k, q);
+        const LatticeTerm* t[columns];
         const double* const m = moments + n_reflections * k * k;
-        for (int v = 0; v < vectors; ++v) {
-            const D real = V::load(m + v * V::lanes);
-            re[v] = V::fma(real, V::set(t->s_re), re[v]);
-            im[v] = V::fma(real, V::set(t->s_im), im[v]);
+        const D real = V::load(m);
+        for (int c = 0; c < columns; ++c) {
+            t[c] = terms + lattice_term(j + k, q + c);
+            re[c] = V::fma(real, V::set(t[c]->s_re), re[c]);
+            im[c] = V::fma(real, V::set(t[c]->s_im), im[c]);
         }
         for (int l = 1; l <= k; ++l) {
-            const D s_re = V::set(t[l].s_re), s_im = V::set(t[l].s_im);
-            const D d_re = V::set(t[l].d_re), d_im = V::set(t[l].d_im);
-            for (int v = 0; v < vectors; ++v) {
-                const D a = V::load(m + n_reflections * (2 * l - 1) + v * V::lanes);
-                const D b = V::load(m + n_reflections * 2 * l + v * V::lanes);
-                re[v] = V::fma(a, s_re, re[v]);
-                im[v] = V::fma(a, s_im, im[v]);
-                re2[v] = V::fnma(b, d_im, re2[v]);
-                im2[v] = V::fma(b, d_re, im2[v]);
+            const D a = V::load(m + n_reflections * (2 * l - 1));
+            const D b = V::load(m + n_reflections * 2 * l);
+            for (int c = 0; c < columns; ++c) {
+                const LatticeTerm& term = t[c][l];
+                re[c] = V::fma(a, V::set(term.s_re), re[c]);
+                im[c] = V::fma(a, V::set(term.s_im), im[c]);
+                re2[c] = V::fnma(b, V::set(term.d_im), re2[c]);
+                im2[c] = V::fma(b, V::set(term.d_re), im2[c]);
             }
         }
     }
     const D sign = V::set(j % 2 == 0 ? 1 : -1);
-    double* const out = locals + n_reflections * (q == 0 ? j * j : j * j + 2 * q - 1);
-    for (int v = 0; v < vectors; ++v) {
-        double* const to = out + v * V::lanes;
-        V::store(to, V::fma(sign, V::add(re[v], re2[v]), V::load(to)));
-        if (q == 0) continue;  // real
+    for (int c = 0; c < columns; ++c) {
+        const bool real = q + c == 0;
+        double* const to = locals + n_reflections * (real ? j * j : j * j + 2 * (q + c) - 1);
+        V::store(to, V::fma(sign, V::add(re[c], re2[c]), V::load(to)));
+        if (real) continue;
         double* const next = to + n_reflections;
-        V::store(next, V::fma(sign, V::add(im[v], im2[v]), V::load(next)));
+        V::store(next, V::fma(sign, V::add(im[c], im2[c]), V::load(next)));
     }
 }
 
-template <class V, int vectors>
+template <class V>
 inline void apply_lattice(int order, const double* sums, const double* moments, double* locals) {
     LatticeTerm terms[n_lattice_terms(max_lattice_order)];
     make_terms(order, sums, terms);
-    for (int first = 0; first < n_reflections; first += vectors * V::lanes)
+    for (int first = 0; first < n_reflections; first += V::lanes)
         for (int j = 0; j <= order; ++j)
-            for (int q = 0; q <= j; ++q)
-                add_local<V, vectors>(order, j, q, terms, moments + first, locals + first);
+            for (int q = 0; q <= j; q += 2) {
+                const double* const from = moments + first;
+                if (q < j) {
+                    add_locals<V, 2>(order, j, q, terms, from, locals + first);
+                } else {
+                    add_locals<V, 1>(order, j, q, terms, from, locals + first);
+                }
+            }
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Portable {
 }  // namespace
 
 void lattice_kernel_portable(int order, const double* sums, const double* moments, double* locals) {
-    apply_lattice<Portable, 2>(order, sums, moments, locals);
+    apply_lattice<Portable>(order, sums, moments, locals);
 }
 
 }  // namespace connectivity::detail

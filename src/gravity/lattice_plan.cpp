@@ -98,7 +98,7 @@ int order_for(double accuracy, double unit, double spread, double clearance) {
 double cost(const LatticeGrid& grid, std::size_t n_near, int order) {
     const double p = order, cells = grid.size();
     const double particles = 1e5 * (p + 1) * (p + 1);
-    const double pairs = 1.2 * cells * cells / 8 * (p + 1) * (p + 2) * (p + 3) * (p + 4) / 24;
+    const double pairs = 0.8 * cells * cells / 8 * (p + 1) * (p + 2) * (p + 3) * (p + 4) / 24;
     return particles + pairs + 5e6 * static_cast<double>(n_near - min_near_images);
 }
 
