@@ -4,7 +4,7 @@
 /// c), fnma (c - a b), select_le (a <= b ? yes : no), rsqrt (to the last bits), transpose.
 
 #include "expansion_m2l.hpp"
-#include "expansion_points.hpp"
+#include "expansion_walk.hpp"
 
 namespace connectivity::detail {
 namespace {
@@ -24,8 +24,15 @@ void any_m2l(int order, const CellArrays& cells, const CellList& sources, const 
 }
 
 template <class V>
+void any_m2p(int order, const CellArrays& cells, const CellList& sources, const Points& points,
+             const Fields& fields) {
+    (order <= 2 ? walk_m2p<V> : m2p<V>)(order, cells, sources, points, fields);
+}
+
+template <class V>
 constexpr ExpansionKernels make_expansion_kernels(const char* name) {
-    return {name, collect<V, true>, m2m<V>, any_m2l<V>, l2l<V>, l2p<V>, m2p<V>, collect<V, false>};
+    return {name,   collect<V, true>, m2m<V>,     any_m2l<V>,
+            l2l<V>, l2p<V>,           any_m2p<V>, collect<V, false>};
 }
 
 }  // namespace

@@ -4,25 +4,10 @@
 /// constant in the instruction stream. The steps are those of m2l in expansion_cells.hpp.
 
 #include "expansion_cells.hpp"
-
-#define CONNECTIVITY_INLINE __attribute__((always_inline))
+#include "expansion_unroll.hpp"
 
 namespace connectivity::detail {
 namespace {
-
-template <int K>
-struct Int {
-    constexpr operator int() const { return K; }
-};
-
-/// f(Int<First>), f(Int<First + Step>), ... up to Last.
-template <int First, int Last, int Step = 1, class F>
-CONNECTIVITY_INLINE inline void each(F&& f) {
-    if constexpr (First <= Last) {
-        f(Int<First>{});
-        each<First + Step, Last, Step>(f);
-    }
-}
 
 /// turn_about_z of a degree.
 template <class V, bool Conjugate, int N>
