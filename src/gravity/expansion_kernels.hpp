@@ -103,9 +103,6 @@ void expansion_power(int order, const double* moments, double* out);
 const ExpansionKernels& expansion_kernels();
 
 extern const ExpansionKernels portable_expansion_kernels;
-#if defined(CONNECTIVITY_X86_KERNELS)
-extern const ExpansionKernels avx2_expansion_kernels;
-extern const ExpansionKernels avx512_expansion_kernels;
-#endif
+extern const ExpansionKernels avx2_expansion_kernels, avx512_expansion_kernels;  // on x86-64
 
 }  // namespace connectivity::detail
