@@ -87,7 +87,7 @@ private:
         } else if (t.id == b && !t.terminal) {
             divide(source, image, w.deferred);
         } else if (t.terminal || (!is_leaf && divides_source(t, b, source))) {
-            divide(source, image, w.open);
+            divide_open(source, image, w.open);
         } else {
             w.deferred.push_back(s);
         }
@@ -95,6 +95,11 @@ private:
     static void divide(const WalkCell& source, int image, std::vector<std::int32_t>& out) {
         for (CellId c = source.first_child; c < source.first_child + source.n_children; ++c)
             out.push_back(Source::pack(c, image));
+    }
+    /// On a stack the first child comes last.
+    static void divide_open(const WalkCell& source, int image, std::vector<std::int32_t>& stack) {
+        for (CellId c = source.first_child + source.n_children; c-- > source.first_child;)
+            stack.push_back(Source::pack(c, image));
     }
 
     const FarTest& test_;

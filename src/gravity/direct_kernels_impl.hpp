@@ -16,7 +16,7 @@ namespace {
 
 /// Terms are added up in three steps, because the rounding errors of a sum grow with the number of
 /// its terms: over a block of sources in registers, over a run of blocks, over the runs.
-constexpr std::int64_t source_block = 256, source_run = 32 * source_block;
+constexpr std::int64_t source_block = 512, source_run = 16 * source_block;
 
 /// A reduction over the lanes costs about as much as so many vectors of pairs.
 constexpr std::int64_t reduction_cost = 4;
@@ -131,17 +131,19 @@ bool add_tile(const NearSources<typename V::T>& s, const NearTargets<typename V:
     return true;
 }
 
-/// One target against vectors of sources.
-template <class V, PairLaw law, bool exact>
-bool add_target(const NearSources<typename V::T>& s, const NearTargets<typename V::T>& t) {
+/// Targets one by one against vectors of sources: no lane is idle, however few targets there are.
+template <class V, PairLaw law, int Tile, bool exact>
+bool add_targets(const NearSources<typename V::T>& s, const NearTargets<typename V::T>& t) {
     using T = typename V::T;
     constexpr bool soft = law != PairLaw::newton;
-    const Point<V> target{V::set(t.x[0]), V::set(t.y[0]), V::set(t.z[0]),
-                          V::set(soft ? t.e[0] : 0)};
-    PairSums<V> sums;
-    const auto add = [&](const T* x, const T* y, const T* z, const T* e, const T* m) {
+    Point<V> target[Tile];
+    PairSums<V> sums[Tile];
+    for (int k = 0; k < Tile; ++k)
+        target[k] = {V::set(t.x[k]), V::set(t.y[k]), V::set(t.z[k]), V::set(soft ? t.e[k] : 0)};
+    const auto add = [&](const T* x, const T* y, const T* z, const T* e, const T* mass) {
         const Point<V> source{V::load(x), V::load(y), V::load(z), soft ? V::load(e) : V::set(0)};
-        add_pairs<V, law, exact>(target, source, V::load(m), sums);
+        const auto m = V::load(mass);
+        for (int k = 0; k < Tile; ++k) add_pairs<V, law, exact>(target[k], source, m, sums[k]);
     };
     std::int64_t j = 0;
     for (; j + V::lanes <= s.n; j += V::lanes)
@@ -155,13 +157,23 @@ bool add_target(const NearSources<typename V::T>& s, const NearTargets<typename 
         }
         add(x, y, z, e, m);
     }
-    if (!exact && !sums.finite()) return false;
+    if constexpr (!exact)
+        for (const auto& sum : sums)
+            if (!sum.finite()) return false;
     using Scale = Unscaled<V, law, exact>;
-    *t.p += Scale::p * V::sum(sums.p);
-    *t.ax += Scale::a * V::sum(sums.x);
-    *t.ay += Scale::a * V::sum(sums.y);
-    *t.az += Scale::a * V::sum(sums.z);
+    for (int k = 0; k < Tile; ++k) {
+        t.p[k] += Scale::p * V::sum(sums[k].p);
+        t.ax[k] += Scale::a * V::sum(sums[k].x);
+        t.ay[k] += Scale::a * V::sum(sums[k].y);
+        t.az[k] += Scale::a * V::sum(sums[k].z);
+    }
     return true;
+}
+
+template <class V, PairLaw law, int Tile>
+inline void add_full_targets(const NearSources<typename V::T>& s,
+                             const NearTargets<typename V::T>& t) {
+    if (!add_targets<V, law, Tile, false>(s, t)) add_targets<V, law, Tile, true>(s, t);
 }
 
 template <class V, PairLaw law, int Tile>
@@ -170,29 +182,31 @@ inline void add_full_tile(const NearSources<typename V::T>& s,
     if (!add_tile<V, law, Tile, false>(s, t)) add_tile<V, law, Tile, true>(s, t);
 }
 
-/// Fewer targets than lanes: filled up with copies of the last, or one by one, whatever is less
-/// work.
+/// Fewer targets than a tile: one by one, or, if there are few sources, filled up with copies of the
+/// last to vectors.
 template <class V, PairLaw law>
 void add_few(const NearSources<typename V::T>& s, const NearTargets<typename V::T>& t) {
     using T = typename V::T;
-    if (t.n * (s.n / V::lanes + reduction_cost) <= s.n) {
-        for (std::int64_t i = 0; i < t.n; ++i) {
-            const auto one = part(t, i, 1);
-            if (!add_target<V, law, false>(s, one)) add_target<V, law, true>(s, one);
-        }
+    if (t.n * (s.n / V::lanes + reduction_cost) <= s.n * ((t.n + V::lanes - 1) / V::lanes)) {
+        std::int64_t i = 0;
+        for (; i + 2 <= t.n; i += 2) add_full_targets<V, law, 2>(s, part(t, i, 2));
+        if (i < t.n) add_full_targets<V, law, 1>(s, part(t, i, 1));
         return;
     }
-    T x[V::lanes], y[V::lanes], z[V::lanes], e[V::lanes];
-    T p[V::lanes] = {}, ax[V::lanes] = {}, ay[V::lanes] = {}, az[V::lanes] = {};
-    for (int k = 0; k < V::lanes; ++k) {
-        const std::int64_t i = k < t.n ? k : t.n - 1;
-        x[k] = t.x[i], y[k] = t.y[i], z[k] = t.z[i];
-        e[k] = law != PairLaw::newton ? t.e[i] : 0;
-    }
-    add_full_tile<V, law, 1>(s, {x, y, z, e, p, ax, ay, az, V::lanes});
-    for (std::int64_t i = 0; i < t.n; ++i) {
-        t.p[i] += p[i], t.ax[i] += ax[i];
-        t.ay[i] += ay[i], t.az[i] += az[i];
+    for (std::int64_t first = 0; first < t.n; first += V::lanes) {
+        const auto some = part(t, first, t.n - first < V::lanes ? t.n - first : V::lanes);
+        T x[V::lanes], y[V::lanes], z[V::lanes], e[V::lanes];
+        T p[V::lanes] = {}, ax[V::lanes] = {}, ay[V::lanes] = {}, az[V::lanes] = {};
+        for (int k = 0; k < V::lanes; ++k) {
+            const std::int64_t i = k < some.n ? k : some.n - 1;
+            x[k] = some.x[i], y[k] = some.y[i], z[k] = some.z[i];
+            e[k] = law != PairLaw::newton ? some.e[i] : 0;
+        }
+        add_full_tile<V, law, 1>(s, {x, y, z, e, p, ax, ay, az, V::lanes});
+        for (std::int64_t i = 0; i < some.n; ++i) {
+            some.p[i] += p[i], some.ax[i] += ax[i];
+            some.ay[i] += ay[i], some.az[i] += az[i];
+        }
     }
 }
 
@@ -204,8 +218,6 @@ void add_law(const NearSources<typename V::T>& sources, const NearTargets<typena
         constexpr int tile = V::tile * V::lanes;
         std::int64_t i = 0;
         for (; i + tile <= t.n; i += tile) add_full_tile<V, law, V::tile>(s, part(t, i, tile));
-        for (; i + V::lanes <= t.n; i += V::lanes)
-            add_full_tile<V, law, 1>(s, part(t, i, V::lanes));
         if (i < t.n) add_few<V, law>(s, part(t, i, t.n - i));
     }
 }

@@ -2,36 +2,35 @@
 #include "near.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace connectivity::detail {
 
 void NearSum::collect(CellId cell) {
     cell_ = cell;
     runs_.clear();
+    n_sources_ = 0;
     const Offset* const offsets = of_.lists->near().offset_data();
     const Slot* const values = of_.lists->near().value_data();
     for (CellId a = cell;; a = of_.cells->parent(a)) {
         for (Offset e = offsets[a]; e < offsets[a + 1]; ++e) {
             const CellId b = Source::cell(values[e]);
-            runs_.push_back({Source::image(values[e]), of_.cells->first(b), of_.cells->count(b)});
+            add_run({Source::image(values[e]), of_.cells->first(b), of_.cells->count(b)});
         }
         if (a == 0) break;
     }
-    std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) {
-        return a.image != b.image ? a.image < b.image : a.first < b.first;
-    });
-    std::size_t n = 0;
-    n_sources_ = 0;
-    for (const Run& run : runs_) {
-        n_sources_ += run.n;
-        if (n > 0 && runs_[n - 1].image == run.image &&
-            runs_[n - 1].first + runs_[n - 1].n == run.first)
-            runs_[n - 1].n += run.n;
-        else
-            runs_[n++] = run;
+}
+
+/// Entries come from a depth-first walk, so that cells side by side often follow each other.
+void NearSum::add_run(const Run& run) {
+    n_sources_ += run.n;
+    if (!runs_.empty()) {
+        Run& last = runs_.back();
+        if (last.image == run.image && last.first + last.n == run.first) {
+            last.n += run.n;
+            return;
+        }
     }
-    runs_.resize(n);
+    runs_.push_back(run);
 }
 
 void NearSum::add(std::int32_t first, std::int32_t n, const Sums& sums) {
@@ -69,8 +68,8 @@ void NearSum::add64(std::int32_t first, std::int32_t n, const Sums& sums) {
     direct_kernels().add64(of_.law,
                            {s, s + rows, s + 2 * rows, s + 3 * rows, s + 4 * rows, n_sources_},
                            {b.x[0] + first, b.x[1] + first, b.x[2] + first,
-                            b.softening != nullptr ? b.softening + first : nullptr, sums.p,
-                            sums.ax, sums.ay, sums.az, n});
+                            b.softening != nullptr ? b.softening + first : nullptr, sums.p, sums.ax,
+                            sums.ay, sums.az, n});
 }
 
 /// Sources as floats: x, y, z, mass, softening, one after the other.
@@ -92,13 +91,15 @@ void NearSum::gather32(const double centre[3], double unit) {
             mass[k] = static_cast<float>(of_.bodies->mass[run.first + k]);
         if (of_.bodies->softening != nullptr)
             for (std::int32_t k = 0; k < run.n; ++k)
-                floats_[4 * n + at + k] = static_cast<float>(of_.bodies->softening[run.first + k] * scale);
+                floats_[4 * n + at + k] =
+                    static_cast<float>(of_.bodies->softening[run.first + k] * scale);
         at += static_cast<std::size_t>(run.n);
     }
 }
 
 void NearSum::add32(std::int32_t first, std::int32_t n, const Sums& sums) {
-    const double centre[3] = {of_.cells->x(0, cell_), of_.cells->x(1, cell_), of_.cells->x(2, cell_)};
+    const double centre[3] = {of_.cells->x(0, cell_), of_.cells->x(1, cell_),
+                              of_.cells->x(2, cell_)};
     const double unit = of_.cells->scale(cell_);
     gather32(centre, unit);
     const auto rows = static_cast<std::size_t>(n), sources = static_cast<std::size_t>(n_sources_);
@@ -131,7 +132,8 @@ void NearSum::add_coincident(std::int32_t first, std::int32_t n, const Sums& sum
     for (std::int32_t k = 0; k < n; ++k) {
         const std::int32_t i = first + k;
         for (std::int32_t j = begin; j < end; ++j) {
-            if (j == i || of_.bodies->x[0][j] != of_.bodies->x[0][i] || of_.bodies->x[1][j] != of_.bodies->x[1][i] ||
+            if (j == i || of_.bodies->x[0][j] != of_.bodies->x[0][i] ||
+                of_.bodies->x[1][j] != of_.bodies->x[1][i] ||
                 of_.bodies->x[2][j] != of_.bodies->x[2][i])
                 continue;
             const double e = std::max(of_.bodies->softening[i], of_.bodies->softening[j]);

@@ -2,10 +2,10 @@
 #pragma once
 /// Near lists as sums over pairs of particles: the direct kernel on runs of consecutive sources.
 ///
-/// Invariants: what acts on a cell is the union of the near rows of the cell and its ancestors,
-/// sorted and merged to runs, so that the bits do not depend on threads. In float32 the coordinates
-/// are relative to the targets' centre, in units of their distance, so that close pairs keep their
-/// digits at any scale. Cost: that of the pairs; float32 copies every source once per target cell.
+/// Invariants: what acts on a cell is the union of the near rows of the cell and its ancestors, in
+/// their order, so that the bits do not depend on threads. In float32 the coordinates are relative
+/// to the targets' centre, in units of their distance, so that close pairs keep their digits at any
+/// scale. Cost: that of the pairs; float32 copies every source once per target cell.
 
 #include <vector>
 
@@ -46,6 +46,7 @@ private:
         int image;
         std::int32_t first, n;
     };
+    void add_run(const Run& run);
     void add64(std::int32_t first, std::int32_t n, const Sums& sums);
     void add32(std::int32_t first, std::int32_t n, const Sums& sums);
     void gather64();
