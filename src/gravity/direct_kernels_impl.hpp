@@ -16,7 +16,7 @@ namespace {
 
 /// Terms are added up in three steps, because the rounding errors of a sum grow with the number of
 /// its terms: over a block of sources in registers, over a run of blocks, over the runs.
-constexpr std::int64_t source_block = 512, source_run = 16 * source_block;
+constexpr std::int64_t source_block = 256, source_run = 32 * source_block;
 
 /// A reduction over the lanes costs about as much as so many vectors of pairs.
 constexpr std::int64_t reduction_cost = 4;
