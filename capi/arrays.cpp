@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -80,6 +81,21 @@ void check_array(const conn_array& a, Numbers numbers, Offset n_components,
     if (reinterpret_cast<std::uintptr_t>(a.data) % element_size(a.dtype) != 0)
         throw Error(Status::argument, name + ".data is not aligned to its " +
                                           std::to_string(element_size(a.dtype)) + "-byte elements");
+}
+
+void check_distinct(const conn_array& a, const std::string& name) {
+    const Offset n = a.extent[0], n_components = a.ndim == 2 ? a.extent[1] : 1,
+                 component = a.ndim == 2 ? a.stride[1] : 1;
+    const Offset node_step = std::abs(a.stride[0]), component_step = std::abs(component);
+    const bool nested = n <= 1 || n_components <= 1 ||
+                        node_step > component_step * (n_components - 1) ||
+                        component_step > node_step * (n - 1);
+    if ((n > 1 && node_step == 0) || (n_components > 1 && component_step == 0) || !nested)
+        throw Error(
+            Status::argument,
+            name + ".stride = {" + std::to_string(a.stride[0]) + ", " + std::to_string(component) +
+                "} puts two elements in one place or mixes nodes with components; one of the two "
+                "must step over all of the other");
 }
 
 namespace {

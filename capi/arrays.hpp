@@ -19,6 +19,10 @@ enum class Numbers { real, whole, any };
 void check_array(const conn_array& array, Numbers numbers, Offset n_components,
                  const std::string& name);
 
+/// Throws Error{argument} unless every element has a place of its own, as an array that is written
+/// must.
+void check_distinct(const conn_array& array, const std::string& name);
+
 /// 4 or 8 bytes.
 std::size_t element_size(std::int32_t dtype);
 

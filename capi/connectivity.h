@@ -26,8 +26,9 @@
  *
  * Hosts include this header alone. Its parts are files beside it, each complete in itself;
  * connectivity_boundary.h (ghosts behind boundaries), connectivity_query.h (single nodes, checks),
- * connectivity_tree.h (box trees) and connectivity_lists.h (interaction lists of them) are not
- * among them: they are experimental, for hosts that ask for them.
+ * connectivity_tree.h (box trees), connectivity_lists.h (interaction lists of them) and
+ * connectivity_gravity.h (gravity) are not among them: they are experimental, for hosts that ask
+ * for them.
  */
 #ifndef CONNECTIVITY_H
 #define CONNECTIVITY_H

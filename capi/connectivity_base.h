@@ -79,7 +79,10 @@ enum {
     CONN_STRUCT_BOX_LIST_VIEW = 14,
     CONN_STRUCT_PARTICLES_VIEW = 15,
     CONN_STRUCT_LISTS_OPTIONS = 16,
-    CONN_STRUCT_CLASSES_VIEW = 17
+    CONN_STRUCT_CLASSES_VIEW = 17,
+    CONN_STRUCT_GRAVITY_OPTIONS = 18,
+    CONN_STRUCT_GRAVITY_INFO = 19,
+    CONN_STRUCT_GRAVITY_VIEW = 20
 };
 /** sizeof of a struct in the library that is loaded, for hosts that mirror the structs in another
  * language; 0 if there is no such struct. */

@@ -4,6 +4,7 @@
 
 #include <connectivity/base/types.hpp>
 
+#include "connectivity_gravity.h"
 #include "connectivity_lists.h"
 #include "guard.hpp"
 #include "structs.hpp"
@@ -109,6 +110,9 @@ int64_t conn_abi_sizeof(int32_t which) {
         case CONN_STRUCT_PARTICLES_VIEW: return sizeof(conn_particles_view);
         case CONN_STRUCT_LISTS_OPTIONS: return sizeof(conn_lists_options);
         case CONN_STRUCT_CLASSES_VIEW: return sizeof(conn_classes_view);
+        case CONN_STRUCT_GRAVITY_OPTIONS: return sizeof(conn_gravity_options);
+        case CONN_STRUCT_GRAVITY_INFO: return sizeof(conn_gravity_info);
+        case CONN_STRUCT_GRAVITY_VIEW: return sizeof(conn_gravity_view);
         default: return 0;
     }
 }

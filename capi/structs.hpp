@@ -86,4 +86,15 @@ inline bool read_flag(std::int32_t value, const std::string& name) {
     throw Error(Status::argument, name + " = " + std::to_string(value) + ", must be 0 or 1");
 }
 
+/// A member of the options whose enumerators begin at `first`, ours at 0. Throws Error{argument}.
+template <class Enum>
+Enum read_choice(std::int32_t value, std::int32_t first, std::int32_t last,
+                 const std::string& name) {
+    if (value < first || value > last)
+        throw Error(Status::argument, "options->" + name + " = " + std::to_string(value) +
+                                          ", must be in [" + std::to_string(first) + ", " +
+                                          std::to_string(last) + "]");
+    return static_cast<Enum>(value - first);
+}
+
 }  // namespace connectivity::capi

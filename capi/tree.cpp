@@ -16,17 +16,6 @@ const conn_tree& handle_of(const conn_tree* tree) {
     return Registry::instance().get<const conn_tree>(tree, "tree");
 }
 
-/// The enumerators of C begin at `first`, ours at 0.
-template <class Enum>
-Enum read_choice(std::int32_t value, std::int32_t first, std::int32_t last,
-                 const std::string& name) {
-    if (value < first || value > last)
-        throw Error(Status::argument, "options->" + name + " = " + std::to_string(value) +
-                                          ", must be in [" + std::to_string(first) + ", " +
-                                          std::to_string(last) + "]");
-    return static_cast<Enum>(value - first);
-}
-
 std::optional<std::int32_t> read_limit(std::int32_t limit) {
     if (limit == -1) return {};
     return limit;

@@ -64,19 +64,21 @@ ParticleArray HostParticles::read(const conn_array* positions, std::int32_t n_ar
         particles.positions = keep(x);
     }
     if (radii == nullptr) return particles;
-    const Columns r = read_columns(radii, 1, 1, radii_name);
-    agree_on(r.dtype, radii_name);
-    if (r.n != x.n)
-        throw Error(Status::argument, std::string(radii_name) +
-                                          ".extent[0] = " + std::to_string(r.n) + ", must be " +
-                                          std::to_string(x.n) + " as in " + name);
-    if (r.n > 0 && (r.n == 1 || r.stride[0] >= 1)) {
-        particles.radii = r.data[0];
-        particles.radius_stride = r.n > 1 ? r.stride[0] : 1;
-    } else {
-        particles.radii = keep(r);
-    }
+    const HostValues r = read_values(*radii, x.n, radii_name, name);
+    particles.radii = r.data;
+    particles.radius_stride = r.stride;
     return particles;
+}
+
+HostValues HostParticles::read_values(const conn_array& values, Offset n, const char* name,
+                                      const char* of) {
+    const Columns v = read_columns(&values, 1, 1, name);
+    agree_on(v.dtype, name);
+    if (v.n != n)
+        throw Error(Status::argument, std::string(name) + ".extent[0] = " + std::to_string(v.n) +
+                                          ", must be " + std::to_string(n) + " as in " + of);
+    if (n > 0 && (n == 1 || v.stride[0] >= 1)) return {v.data[0], n > 1 ? v.stride[0] : 1};
+    return {keep(v), 1};
 }
 
 const std::int32_t* HostParticles::read_weights(const conn_array& weights, Offset n) {

@@ -101,14 +101,22 @@ struct BoxListPin final : Handle {
 void hand_over_list(const LevelBoxList& list, const ConstView<BoxId>& row_boxes,
                     std::uint64_t generation, std::int32_t space, conn_box_list_view* view);
 
-/// Particles of the host as the tree takes them, valid while this lives: arrays that it cannot take
-/// as they are have been copied.
+/// Value i is element i * stride.
+struct HostValues {
+    const void* data;
+    Offset stride;
+};
+
+/// Particles of the host as trees and gravity take them, valid while this lives: arrays that it
+/// cannot take as they are have been copied.
 class HostParticles {
 public:
     /// Throws Error: null, argument, too_many, unsupported, memory; names are the arguments'. radii
     /// NULL: points.
     ParticleArray read(const conn_array* positions, std::int32_t n_arrays, int dim,
                        const conn_array* radii, const char* name, const char* radii_name);
+    /// [n], of the type of the arrays before; `of` names the array of the n particles.
+    HostValues read_values(const conn_array& values, Offset n, const char* name, const char* of);
     /// [n] contiguous, of 32 bits.
     const std::int32_t* read_weights(const conn_array& weights, Offset n);
 

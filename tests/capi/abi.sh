@@ -21,7 +21,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 printf '#include <%s>\n' connectivity.h connectivity_boundary.h connectivity_query.h \
-    connectivity_tree.h connectivity_lists.h > "$work/all.c"
+    connectivity_tree.h connectivity_lists.h connectivity_gravity.h > "$work/all.c"
 "$cc" -std=c99 -E -P -I"$root/capi" -I"$root/include" "$work/all.c" |
     awk 'BEGIN { RS = ";" }
         /visibility\("default"\)/ { print $0 (/void conn_set_error/ ? " {}" : " { return 0; }"); next }

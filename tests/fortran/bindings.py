@@ -14,7 +14,7 @@ import pathlib
 import re
 import sys
 
-PARTS = "base nodes map views fields traverse report boundary query tree lists".split()
+PARTS = "base nodes map views fields traverse report boundary query tree lists gravity".split()
 # C type: Fortran type, bytes, name of the kind
 NUMBERS = {
     "int32_t": ("integer(c_int32_t)", 4, "c_int32_t"),
@@ -60,7 +60,9 @@ def defaults(text, struct):
 
 
 def value_of(text, kind):
-    return f"{text}._c_double" if kind == "c_double" else text
+    if kind != "c_double":
+        return text
+    return f"{text}_c_double" if re.search("[.e]", text) else f"{text}._c_double"
 
 
 def struct_lines(text, name, body):
@@ -162,6 +164,7 @@ def part_text(capi, part, structs):
 
 
 C_TEST = """#include <connectivity_boundary.h>
+#include <connectivity_gravity.h>
 #include <connectivity_lists.h>
 #include <connectivity_query.h>
 #include <connectivity_tree.h>
