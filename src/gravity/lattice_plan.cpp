@@ -63,34 +63,45 @@ std::size_t whole_shells(const std::vector<Shell>& shells, std::size_t at_least)
     return n;
 }
 
-/// How far the nearest image that is not near is from two cells this many cells apart.
-double clearance(const Lengths& lengths, const LatticeGrid& grid, const std::array<int, 3>& apart,
-                 const std::vector<Shell>& shells, std::size_t n_near) {
-    double nearest = HUGE_VAL;
+/// Distances of the images that are not near from two cells this many cells apart.
+void find_distances(const Lengths& lengths, const LatticeGrid& grid,
+                    const std::array<int, 3>& apart, const std::vector<Shell>& shells,
+                    std::size_t n_near, std::vector<double>& distances) {
+    distances.clear();
     for (std::size_t s = n_near; s < shells.size(); ++s) {
-        double r[3];
-        for (int d = 0; d < 3; ++d)
-            r[d] = apart[d] * grid.side[d] - shells[s].image[d] * lengths[d];
-        nearest = std::min(nearest, std::hypot(r[0], r[1], r[2]));
+        double r2 = 0;
+        for (int d = 0; d < 3; ++d) {
+            const double r = apart[d] * grid.side[d] - shells[s].image[d] * lengths[d];
+            r2 += r * r;
+        }
+        distances.push_back(std::sqrt(r2));
     }
-    return nearest;
 }
 
-/// At most the error of an acceleration, in |m| / V^(2/3), by expansions of two cells this far from
-/// the nearest image left out: what one image's terms beyond the order are at the cells' corners.
-/// Measured with a particle in a corner of the box: 0.15 to 1 of this.
-double truncation(double unit, double spread, double clearance, int order) {
-    const double size = unit / clearance;
-    return size * size * (order + 1) * std::pow(spread / clearance, order);
-}
-
-/// The lowest order that is accurate enough; one more than the highest if none is.
-int order_for(double accuracy, double unit, double spread, double clearance) {
-    int order = min_order;
-    if (!(spread < clearance)) return max_expansion_order + 1;
-    while (order <= max_expansion_order && truncation(unit, spread, clearance, order) > accuracy)
-        ++order;
-    return order;
+/// The lowest order at which the terms beyond it of all images at these distances are accurate
+/// enough; one more than the highest if none is. An image's terms of degree n are at most
+/// n (spread / distance)^(n-1) / distance² in the cells' corners. Accelerations in |m| / V^(2/3),
+/// `unit` is V^(1/3).
+int order_for(double accuracy, double unit, double spread, std::vector<double>& distances) {
+    const double nearest = *std::min_element(distances.begin(), distances.end());
+    if (!(spread < nearest)) return max_expansion_order + 1;
+    // Others are of no weight.
+    std::erase_if(distances, [=](double distance) { return distance > 4 * nearest; });
+    std::vector<double> power(distances.size());
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        const double size = unit / distances[i], ratio = spread / distances[i];
+        power[i] = size * size / ((1 - ratio) * (1 - ratio));
+    }
+    for (int order = 1; order <= max_expansion_order; ++order) {
+        double rest = 0;
+        for (std::size_t i = 0; i < distances.size(); ++i) {
+            const double ratio = spread / distances[i];
+            power[i] *= ratio;
+            rest += power[i] * (1 + order * (1 - ratio));
+        }
+        if (order >= min_order && rest <= accuracy) return order;
+    }
+    return max_expansion_order + 1;
 }
 
 /// Nanoseconds, measured with AVX-512: 200 000 particles, all pairs of cells, and what more near
@@ -117,6 +128,13 @@ void check_lengths(const Lengths& lengths) {
                                      number(max_side_ratio) + " for gravity");
 }
 
+/// Two cells as far apart as may be, towards this image.
+std::array<int, 3> nearest_cells(const LatticeGrid& grid, const Image& image) {
+    std::array<int, 3> apart;
+    for (int d = 0; d < 3; ++d) apart[d] = image[d] == 0 ? 0 : grid.cells[d] - 1;
+    return apart;
+}
+
 struct Choice {
     LatticeGrid grid;
     std::size_t n_near = 0;
@@ -127,10 +145,13 @@ struct Choice {
 void choose_images(const Lengths& lengths, const LatticeGrid& grid, double accuracy, double unit,
                    Choice& best) {
     const std::vector<Shell> shells = make_shells(lengths, grid);
+    std::vector<double> distances;
     for (std::size_t n = whole_shells(shells, min_near_images); n <= max_near_images;
          n = whole_shells(shells, n + 1)) {
-        const int order = order_for(accuracy, unit, spread(grid), shells[n].distance);
-        if (order > max_expansion_order) continue;
+        // Cells at an edge of the box, where images of one side are nearest.
+        find_distances(lengths, grid, nearest_cells(grid, shells[n].image), shells, n, distances);
+        const int order = order_for(accuracy, unit, spread(grid), distances);
+        if (order >= max_expansion_order) continue;  // others, with more images, may need one more
         const double found = cost(grid, n, order);
         if (found < best.cost) best = {grid, n, found};
     }
@@ -159,9 +180,10 @@ LatticePlan plan_lattice(const Lengths& lengths, double accuracy) {
                                              ", which a box of this shape cannot have");
     LatticePlan plan = plan_lattice(lengths, best.grid.cells, static_cast<int>(best.n_near), 0);
     const std::vector<Shell> shells = make_shells(lengths, plan.grid);
+    std::vector<double> distances;
     for (int c = 0; c < plan.grid.size(); ++c) {
-        const double clear = clearance(lengths, plan.grid, plan.grid.place(c), shells, best.n_near);
-        plan.orders[c] = order_for(accuracy, unit, spread(plan.grid), clear);
+        find_distances(lengths, plan.grid, plan.grid.place(c), shells, best.n_near, distances);
+        plan.orders[c] = order_for(accuracy, unit, spread(plan.grid), distances);
         plan.order = std::max(plan.order, plan.orders[c]);
     }
     return plan;

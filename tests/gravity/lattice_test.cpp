@@ -184,6 +184,15 @@ TEST_P(FarAndNear, are_ewalds_sum_for_a_clump_on_a_corner) {
     expect_accuracy(y, std::vector<double>(25, 1), clump_on_corner(box(), 10, 0.2 * box()[0]));
 }
 
+TEST_P(FarAndNear, are_ewalds_sum_where_expansions_converge_least) {
+    // The source in the low corner of a cell, targets in the high corners of all cells.
+    const auto grid = detail::plan_lattice(box(), std::get<1>(GetParam())).grid;
+    Positions x;
+    for (int cell = 0; cell < grid.size(); cell += 1 + grid.size() / 300)
+        for (int d = 0; d < 3; ++d) x.push_back((grid.place(cell)[d] + 0.999) * grid.side[d]);
+    expect_accuracy({0, 0, 0}, {1}, x);
+}
+
 INSTANTIATE_TEST_SUITE_P(Lattice, FarAndNear,
                          ::testing::Combine(::testing::Values(cube, rod, slab, needle),
                                             ::testing::Values(1e-3, 1e-7, 1e-10)));

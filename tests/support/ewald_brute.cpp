@@ -14,10 +14,11 @@ using Vector = std::array<Real, 3>;
 constexpr Real pi = std::numbers::pi_v<Real>;
 constexpr Real reach = 7.5L;  ///< erfc(7.5) = 3e-26
 
-/// Lengths in units of the cube root of the volume.
+/// What is summed is in units of the cube root of the volume.
 struct Frame {
     Real unit;
-    Vector length;
+    Vector box;     ///< the host's lengths
+    Vector length;  ///< in units
     Real alpha;
 
     Vector at(const std::vector<double>& x, std::size_t i) const {
@@ -45,20 +46,22 @@ void add_image(const Frame& frame, const Vector& r, Real m, Field& field) {
     for (int d = 0; d < 3; ++d) field.a[d] -= factor * r[d];
 }
 
-/// All images of a source within reach.
+/// All images of a source within reach. Differences are of the host's lengths, and exact where the
+/// target is close to an image.
 void add_images(const Frame& frame, const Vector& difference, Real m, Field& field) {
     std::array<int, 3> first, last;
+    const Real radius = reach / frame.alpha * frame.unit;
     for (int d = 0; d < 3; ++d) {
-        const Real radius = reach / frame.alpha;
-        first[d] = static_cast<int>(std::ceil((difference[d] - radius) / frame.length[d]));
-        last[d] = static_cast<int>(std::floor((difference[d] + radius) / frame.length[d]));
+        first[d] = static_cast<int>(std::ceil((difference[d] - radius) / frame.box[d]));
+        last[d] = static_cast<int>(std::floor((difference[d] + radius) / frame.box[d]));
     }
     for (int i = first[0]; i <= last[0]; ++i)
         for (int j = first[1]; j <= last[1]; ++j)
             for (int k = first[2]; k <= last[2]; ++k)
                 add_image(frame,
-                          {difference[0] - i * frame.length[0], difference[1] - j * frame.length[1],
-                           difference[2] - k * frame.length[2]},
+                          {(difference[0] - i * frame.box[0]) / frame.unit,
+                           (difference[1] - j * frame.box[1]) / frame.unit,
+                           (difference[2] - k * frame.box[2]) / frame.unit},
                           m, field);
 }
 
@@ -103,7 +106,10 @@ EwaldSums ewald_brute(const std::array<double, 3>& lengths, const std::vector<do
                       const std::vector<double>& m, const std::vector<double>& x,
                       double splitting) {
     const Real unit = std::cbrt(Real{lengths[0]} * lengths[1] * lengths[2]);
-    const Frame frame{unit, {lengths[0] / unit, lengths[1] / unit, lengths[2] / unit}, splitting};
+    const Frame frame{unit,
+                      {lengths[0], lengths[1], lengths[2]},
+                      {lengths[0] / unit, lengths[1] / unit, lengths[2] / unit},
+                      splitting};
     std::vector<Vector> sources, targets;
     for (std::size_t j = 0; j < m.size(); ++j) sources.push_back(frame.at(y, j));
     for (std::size_t i = 0; 3 * i < x.size(); ++i) targets.push_back(frame.at(x, i));
@@ -113,9 +119,7 @@ EwaldSums ewald_brute(const std::array<double, 3>& lengths, const std::vector<do
     for (std::size_t i = 0; i < targets.size(); ++i) {
         for (std::size_t j = 0; j < m.size(); ++j) {
             Vector difference;
-            // Differences of what the host gave are exact where it is close to an image.
-            for (int d = 0; d < 3; ++d)
-                difference[d] = (Real{x[3 * i + d]} - Real{y[3 * j + d]}) / unit;
+            for (int d = 0; d < 3; ++d) difference[d] = Real{x[3 * i + d]} - Real{y[3 * j + d]};
             add_images(frame, difference, m[j], fields[i]);
             fields[i].p -= m[j] * pi / (frame.alpha * frame.alpha);
         }
