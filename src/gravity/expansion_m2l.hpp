@@ -47,12 +47,11 @@ CONNECTIVITY_INLINE inline void swap_degree(const typename V::D* in, typename V:
     each<0, Out>([&](auto l) CONNECTIVITY_INLINE {
         constexpr int L = l, odd = (N - L) % 2;
         out[L > 0 ? 2 * L - 1 : 0] = swap_row<V, Locals, false, N, L, odd, In>(in);
-        if constexpr (L > 0)
-            out[2 * L] = swap_row < V, Locals, true, N, L, odd == 0 ? 1 : 2, In > (in);
+        if constexpr (L > 0) out[2 * L] = swap_row<V, Locals, true, N, L, odd + 1, In>(in);
     });
 }
 
-/// The degree N and least(N, P - N), which orders of m the middle of M2L uses.
+/// The orders m <= used of degree N are what the middle of M2L reads and writes.
 template <int P, int N>
 constexpr int used = N < P - N ? N : P - N;
 
@@ -91,10 +90,9 @@ __attribute__((noinline)) void zone_from_axis(const Frame<V>& frame, typename V:
     });
     each<0, N>([&](auto l) CONNECTIVITY_INLINE {
         constexpr int L = l;
-        if constexpr (L % 2 == 0)
-            b[L] = swap_row<V, true, false, N, L, N % 2, N>(a);
-        else
-            b[L] = swap_row < V, true, true, N, L, N % 2 == 0 ? 2 : 1, N > (a);
+        constexpr bool sine = L % 2 == 1;
+        constexpr int lowest = sine && N % 2 == 0 ? 2 : N % 2;
+        b[L] = swap_row<V, true, sine, N, L, lowest, N>(a);
     });
     sums[0] = V::fma(factor, b[0], sums[0]);
     each<1, N>([&](auto l) CONNECTIVITY_INLINE {

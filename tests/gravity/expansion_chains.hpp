@@ -81,7 +81,7 @@ inline std::vector<Vec> directions() {
             d[axis] = s;
             all.push_back(d);
         }
-    for (const Real tiny : {1e-300L, 1e-170L, 1e-155L, 1e-31L, 1e-20L, 1e-8L})
+    for (const Real tiny : {1e-300L, 1e-161L, 1e-155L, 1e-31L, 1e-20L, 1e-8L})
         for (const Real s : {1, -1}) {
             all.push_back({tiny, 0, s});
             all.push_back({-tiny / 2, tiny, s});
