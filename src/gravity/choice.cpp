@@ -8,7 +8,7 @@ namespace connectivity::detail {
 
 namespace {
 
-constexpr double aim = 0.3, too_low = 0.12, too_high = 0.5;  // of the tolerance
+constexpr double aim = 0.35, too_low = 0.2, too_high = 0.55;  // of the tolerance
 constexpr int most_trials = 6;
 constexpr double least_epsilon = 1e-15, most_epsilon = 1e4;
 

@@ -162,6 +162,7 @@ void TreeSum::sum_items(const TreeSettings& settings, const Sums& sums) {
         near.begin(
             {&bodies_, &cells_, &lists_, &images_, law_of(settings, bodies_), settings.float32});
     unpacked_.resize(near_.size());
+    near_pairs_.assign(near_.size(), 0);
     FirstException failure;
     for_each_dynamic("gravity/near", static_cast<Offset>(items_.size()), [&](int worker, Offset k) {
         if (failure.any()) return;
@@ -170,6 +171,7 @@ void TreeSum::sum_items(const TreeSettings& settings, const Sums& sums) {
         for (double* const to : {own.p, own.ax, own.ay, own.az}) std::fill_n(to, item.n, 0.0);
         try {
             near_[worker].collect(item.unit);
+            near_pairs_[worker] += near_[worker].n_sources() * item.n;
             near_[worker].add(item.first, item.n, own);
             add_far(settings, item, worker, own);
         } catch (...) {
@@ -182,24 +184,23 @@ void TreeSum::sum_items(const TreeSettings& settings, const Sums& sums) {
 
 /// Sums over items are those over all particles, or scaled to them.
 TreeWork TreeSum::measure_work(FarForm form) const {
-    const Offset* const near = lists_.near().offset_data();
     const Offset* const far = lists_.far().offset_data();
-    TreeWork work;
-    double n = 0;
+    double n = 0, near = 0, far_pairs = 0;
+    for (const std::int64_t pairs : near_pairs_) near += static_cast<double>(pairs);
     for (const Item& item : items_) {
         n += item.n;
+        if (form == FarForm::cell_to_particles) {
+            far_pairs += double(item.n) * static_cast<double>(far[item.unit + 1] - far[item.unit]);
+            continue;
+        }
         for (CellId c = item.unit;; c = cells_.parent(c)) {
-            for (Offset e = near[c]; e < near[c + 1]; ++e)
-                work.near_pairs +=
-                    double(item.n) * cells_.count(Source::cell(lists_.near().value_data()[e]));
-            const double share =
-                form == FarForm::cell_to_cell ? double(item.n) / cells_.count(c) : item.n;
-            work.far_pairs += share * static_cast<double>(far[c + 1] - far[c]);
+            far_pairs +=
+                double(item.n) / cells_.count(c) * static_cast<double>(far[c + 1] - far[c]);
             if (c == 0) break;
         }
     }
     const double scale = n > 0 ? static_cast<double>(bodies_.n) / n : 0;
-    return {work.near_pairs * scale, work.far_pairs * scale};
+    return {near * scale, far_pairs * scale};
 }
 
 TreeWork TreeSum::sum_all(const TreeSettings& settings, const Sums& sums) {

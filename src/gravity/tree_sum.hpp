@@ -101,6 +101,7 @@ private:
     std::vector<Item> items_;
     std::vector<NearSum> near_;  ///< one a worker
     std::vector<UnpackedList> unpacked_;
+    std::vector<std::int64_t> near_pairs_;  ///< of particles, one a worker
     Report report_;
 };
 
