@@ -53,10 +53,9 @@ struct Swaps {
     Swap moments{};  ///< of R, and so of M
     Swap locals{};   ///< of F, so that sum conj(R) F stays: the transpose, m > 0 counting twice
     constexpr Swaps() {
-        constexpr int p = max_expansion_order, w = 2 * p + 3, o = p + 1;
         double b[2][w][w] = {};
         b[0][o][o] = 1;
-        for (int n = 0; n <= p; ++n) {
+        for (int n = 0; n <= max_expansion_order; ++n) {
             double(&now)[w][w] = b[n % 2];
             if (n > 0) next(n, b[1 - n % 2], now);
             for (int l = 0; l <= n; ++l)
@@ -65,14 +64,14 @@ struct Swaps {
     }
 
 private:
-    template <int W>
-    static constexpr void next(int n, const double (&old)[W][W], double (&now)[W][W]) {
-        constexpr int o = W / 2;
+    static constexpr int o = max_expansion_order + 1, w = 2 * o + 1;  // B_ml is at [o + m][o + l]
+
+    static constexpr void next(int n, const double (&old)[w][w], double (&now)[w][w]) {
         for (auto& row : now)
             for (double& entry : row) entry = 0;
         for (int m = -n; m <= n; ++m) {
-            const double(&below)[W] = old[o + m - 1];
-            const double(&above)[W] = old[o + m + 1];
+            const double(&below)[w] = old[o + m - 1];
+            const double(&above)[w] = old[o + m + 1];
             for (int l = 1 - n; l < n; ++l) now[o + m][o + l] = (below[o + l] - above[o + l]) / 2;
             const int a = o + n - 1, b = o - n + 1;
             now[o + m][o + n] = (below[a] + above[a]) / 2 + old[o + m][a];
