@@ -18,9 +18,8 @@ using LatticeKernel = void (*)(int order, const double* sums, const double* mome
 LatticeKernel lattice_kernel();
 
 void lattice_kernel_portable(int order, const double* sums, const double* moments, double* locals);
-#if defined(CONNECTIVITY_X86_KERNELS)
+// On x86-64.
 void lattice_kernel_avx2(int order, const double* sums, const double* moments, double* locals);
 void lattice_kernel_avx512(int order, const double* sums, const double* moments, double* locals);
-#endif
 
 }  // namespace connectivity::detail
