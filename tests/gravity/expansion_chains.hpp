@@ -12,7 +12,7 @@ namespace connectivity::test {
 
 using detail::ExpansionKernels;
 
-constexpr double round_off = 2e-14;
+constexpr double round_off = 4e-15;
 
 /// Largest error of potentials and gradients at the targets, each relative to the sum of the sizes
 /// of what was added.

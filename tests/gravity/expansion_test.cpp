@@ -53,7 +53,7 @@ TEST_P(Expansions, moments_moved_to_the_parent_are_those_of_its_particles) {
         k.p2m(order, cloud.bodies(), cells.cell(children.back()));
         k.p2m(order, cloud.bodies(), cells.cell(whole));
         k.m2m(order, cells.arrays(), list_of(children), cells.cell(moved));
-        EXPECT_LE(moments_difference(order, cells.cell(moved), cells.cell(whole)), round_off)
+        EXPECT_LE(moments_difference(order, cells.cell(moved), cells.cell(whole)), 4 * round_off)
             << order;
     }
 }
@@ -75,10 +75,10 @@ TEST_P(Expansions, a_local_expansion_moved_to_a_child_is_the_same_field) {
             k.l2p(order, cells.cell(parent), targets.points(), far.out());
             k.l2p(order, cells.cell(child), targets.points(), near.out());
             for (std::size_t i = 0; i < far.p.size(); ++i) {
-                EXPECT_NEAR(far.p[i], near.p[i], 2 * round_off) << order;
-                EXPECT_NEAR(far.ax[i], near.ax[i], 2 * round_off) << order;
-                EXPECT_NEAR(far.ay[i], near.ay[i], 2 * round_off) << order;
-                EXPECT_NEAR(far.az[i], near.az[i], 2 * round_off) << order;
+                EXPECT_NEAR(far.p[i], near.p[i], 10 * round_off) << order;
+                EXPECT_NEAR(far.ax[i], near.ax[i], 10 * round_off) << order;
+                EXPECT_NEAR(far.ay[i], near.ay[i], 10 * round_off) << order;
+                EXPECT_NEAR(far.az[i], near.az[i], 10 * round_off) << order;
             }
         }
     }
