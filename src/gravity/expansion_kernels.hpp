@@ -12,8 +12,9 @@
 /// An expansion of order P has (P+1)² doubles: (n,0) at n², Re(n,m) at n² + 2m - 1, Im(n,m) at
 /// n² + 2m. It has a centre c and a scale s > 0, a length not much below the cell's radius:
 ///
-///     moments  M_nm = sum_i m_i R_nm((x_i - c) / s)     p(x) = sum conj(M_nm) T_nm((x - c) / s) /
-///     s local    p(x) = sum conj(R_nm((x - c) / s)) F_nm
+///     moments  M_nm = sum_i m_i R_nm((x_i - c) / s),
+///              p(x) = sum_nm conj(M_nm) T_nm((x - c) / s) / s
+///     local    p(x) = sum_nm conj(R_nm((x - c) / s)) F_nm
 ///
 /// Potentials are p = sum m/r, accelerations a = grad p. Only ratios of scales and distances are
 /// raised to powers: nothing overflows for any scales, as long as distances stay in [1e-120, 1e120]
