@@ -63,6 +63,11 @@ std::vector<std::string> select_lists(const SnapshotInfo& info,
     return with_support;
 }
 
+std::vector<std::string> all_or_selected(const SnapshotInfo& info,
+                                         const std::vector<std::string>& asked) {
+    return asked.empty() ? names_of(info) : select_lists(info, asked);
+}
+
 std::string file_library() {
     unsigned major = 0, minor = 0, release = 0;
     H5get_libversion(&major, &minor, &release);

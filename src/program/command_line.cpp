@@ -15,6 +15,7 @@
 
 #include "program/choice.hpp"
 #include "program/commands.hpp"
+#include "program/gravity_options.hpp"
 #include "program/lists_options.hpp"
 
 namespace connectivity::program {
@@ -126,6 +127,7 @@ void add_cloud(CLI::App& app, CloudOptions& o) {
 struct Options {
     PairsOptions pairs;
     ListsOptions lists;
+    GravityCommand gravity;
     CloudOptions cloud;
 };
 
@@ -133,6 +135,7 @@ struct Options {
 void dispatch(const CLI::App& app, const Options& options) {
     if (app.got_subcommand("pairs")) run_pairs(options.pairs);
     if (app.got_subcommand("lists")) run_lists(options.lists);
+    if (app.got_subcommand("gravity")) run_gravity(options.gravity);
     if (app.got_subcommand("cloud")) run_cloud(options.cloud);
     if (app.got_subcommand("info")) run_info();
 }
@@ -154,8 +157,8 @@ int guarded(const CLI::App& app, const Options& options) {
 
 int run(int argc, const char* const* argv) {
     CLI::App app(
-        "Who interacts with whom? Neighbour rows, pairs and interaction lists of any particle "
-        "snapshot.",
+        "Who interacts with whom? Neighbour rows, pairs, interaction lists and gravity of any "
+        "particle snapshot.",
         "connectivity");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("connectivity ") + CONNECTIVITY_VERSION);
@@ -163,9 +166,11 @@ int run(int argc, const char* const* argv) {
     Options options;
     add_pairs(app, options.pairs);
     add_lists_command(app, options.lists);
+    add_gravity_command(app, options.gravity);
     add_cloud(app, options.cloud);
     app.add_subcommand("info", "Versions, backends and build of this program");
-    options.pairs.command = options.lists.command = options.cloud.command = joined(argc, argv);
+    options.pairs.command = options.lists.command = options.gravity.command =
+        options.cloud.command = joined(argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

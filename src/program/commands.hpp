@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <connectivity/gravity/options.hpp>
 #include <connectivity/lists/traversal_options.hpp>
 #include <connectivity/map/map_options.hpp>
 #include <connectivity/tree/tree_input.hpp>
@@ -52,6 +53,19 @@ struct ListsOptions {
     std::string command;
 };
 void run_lists(const ListsOptions& options);
+
+struct GravityCommand {
+    std::string file;
+    std::vector<std::string> lists;  ///< in this order; empty: all
+    std::string out, plot;           ///< empty: none
+    bool open = false;
+    std::optional<Offset> step;
+    GravityOptions options;  ///< all but the domain, which the file has
+    int n_threads = 0;
+    std::uint64_t budget = 0;
+    std::string command;
+};
+void run_gravity(const GravityCommand& command);
 
 void run_info();
 

@@ -23,15 +23,6 @@ namespace connectivity::program {
 
 namespace {
 
-/// All lists of the file, unless some are asked for.
-std::vector<std::string> chosen_lists(const SnapshotInfo& info,
-                                      const std::vector<std::string>& asked) {
-    if (!asked.empty()) return select_lists(info, asked);
-    std::vector<std::string> all;
-    for (const auto& list : info.lists) all.push_back(list.name);
-    return all;
-}
-
 class ListsRun {
 public:
     explicit ListsRun(const ListsOptions& options)
@@ -85,7 +76,7 @@ void ListsRun::read_snapshot() {
     length_unit_ = length_unit(info.units);
     std::vector<NodeList> nodes;
     console_.phase("reading", [&] {
-        for (const auto& name : chosen_lists(info, options_.lists))
+        for (const auto& name : all_or_selected(info, options_.lists))
             nodes.push_back(reader->read(name, {}).nodes);
         input_ = particles_of(nodes, info.domain, info.dim);
     });

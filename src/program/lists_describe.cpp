@@ -4,19 +4,13 @@
 #include <fmt/format.h>
 
 #include <connectivity/base/budget.hpp>
+#include <connectivity/io/names.hpp>
 
 #include "program/console.hpp"
 
 namespace connectivity::program {
 
 namespace {
-
-template <class Enum>
-std::string name_of(Enum value, const std::map<std::string, Enum>& names) {
-    for (const auto& [name, meaning] : names)
-        if (meaning == value) return name;
-    return {};
-}
 
 std::string describe_particles(const char* kind, const ListsInput::Particles& particles) {
     return fmt::format("{} {}{}", particles.n, kind,

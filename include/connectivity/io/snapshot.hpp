@@ -90,6 +90,10 @@ std::unique_ptr<SnapshotReader> open_snapshot(const std::string& path,
 std::vector<std::string> select_lists(const SnapshotInfo& info,
                                       const std::vector<std::string>& asked);
 
+/// The same, but if none is named every list of the file, in its order.
+std::vector<std::string> all_or_selected(const SnapshotInfo& info,
+                                         const std::vector<std::string>& asked);
+
 /// "HDF5 1.10.8" and the like.
 std::string file_library();
 
