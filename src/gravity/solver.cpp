@@ -13,7 +13,7 @@ namespace {
 /// Near sums in single precision are wrong by about 1e-6 of the sum of their terms.
 constexpr double float32_tolerance = 3e-5;
 /// Share of the tolerance that the far images of a periodic box may take.
-constexpr double lattice_share = 1e-3;
+constexpr double lattice_share = 1e-2;
 constexpr int most_repeats = 4;
 
 /// Storage for n values: the old one if it is large enough and nobody else holds it.
@@ -43,7 +43,7 @@ void Solver::make_lattice(double tolerance) {
         lattice_.reset();
         return;
     }
-    const double accuracy = std::clamp(tolerance * lattice_share, 1e-11, 1e-6);
+    const double accuracy = std::clamp(tolerance * lattice_share, 1e-10, 1e-5);
     if (lattice_ == nullptr || !lattice_->serves(frame_.box, accuracy))
         lattice_ = std::make_unique<LatticeField>(frame_.box, accuracy);
     const auto& near = lattice_->near_images();
@@ -151,6 +151,10 @@ bool Solver::solve_by_cells(const GravityOptions& options, GravityInfo& info) {
         if (options.method == GravityMethod::automatic &&
             cost_of(settings, promised, frame_.n) > n * n * images_.n)
             return false;
+    } else if (sample_.n() > 0) {
+        trial_.resize(sample_.n());
+        tree_.sum_some(settings, sample_.places(), trial_.sums());
+        tree_.measure_scales(sample_.field(), sample_.potential());
     }
     const TreeWork work = sum_until_reached(options, settings, info);
     user_ids_ = tree_.user_ids();
