@@ -38,6 +38,15 @@ struct Cells {
 
     bool is_leaf(CellId c) const { return n_children(c) == 0; }
     double x(int axis, CellId c) const { return centre(Offset{axis} * n + c); }
+    /// Squared distance of the centres of a and of b moved by shift[3].
+    double distance2(CellId a, CellId b, const double* shift) const {
+        double d2 = 0;
+        for (int d = 0; d < 3; ++d) {
+            const double difference = x(d, a) - (x(d, b) + shift[d]);
+            d2 += difference * difference;
+        }
+        return d2;
+    }
     CellArrays arrays() const;  ///< with the moments
     Expansion expansion(CellId c, double* coefficients) const {
         return {{x(0, c), x(1, c), x(2, c)}, scale(c), coefficients + c * stride};

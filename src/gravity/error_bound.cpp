@@ -18,11 +18,7 @@ public:
     double operator()(CellId a, Slot source) const {
         const CellId b = Source::cell(source);
         const double* const shift = shift_ + 3 * Source::image(source);
-        double d2 = 0;
-        for (int d = 0; d < 3; ++d) {
-            const double x = k_.x(d, a) - (k_.x(d, b) + shift[d]);
-            d2 += x * x;
-        }
+        const double d2 = k_.distance2(a, b, shift);
         const bool particles = c_.form == FarForm::cell_to_particles;
         const double far = std::sqrt(d2), r = particles ? far - k_.radius(a) : far,
                      own = particles ? 0 : k_.radius(a);

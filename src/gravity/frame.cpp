@@ -8,6 +8,7 @@
 
 #include <connectivity/base/parallel.hpp>
 
+#include "lattice_wrap.hpp"
 #include "tree/check_array.hpp"
 
 namespace connectivity::detail {
@@ -151,12 +152,6 @@ void check_domain(const GravityParticles& p, const Domain& domain) {
                     "periodic along all three");
 }
 
-/// Into [0, side), which rounding may leave at either end.
-double wrapped(double x, double side) {
-    x -= side * std::floor(x / side);
-    return x >= 0 && x < side ? x : 0.0;
-}
-
 }  // namespace
 
 void make_frame(const GravityParticles& particles, const GravityOptions& options, Frame& frame) {
@@ -189,8 +184,8 @@ void make_frame(const GravityParticles& particles, const GravityOptions& options
             for (int d = 0; d < 3; ++d)
                 frame.x(d * n + i) =
                     frame.periodic
-                        ? wrapped((reader.position(i, d) - options.domain.lo[d]) / frame.length,
-                                  frame.box[d])
+                        ? wrap_into_box(reader.position(i, d) / frame.length,
+                                        options.domain.lo[d] / frame.length, frame.box[d])
                         : reader.position(i, d) / frame.length;
             frame.mass(i) = reader.mass(i) / frame.mass_unit;
             if (found.softening > 0) frame.softening(i) = reader.softening(i) / frame.length;

@@ -39,31 +39,11 @@ void take_paths(const Cells& cells, const std::vector<std::int32_t>& particles, 
     set.level_starts.push_back(set.ids.size());
 }
 
-void make_locals(const Cells& cells, const CellLists& lists, const Images& images,
-                 const CellSet& set, View<double>& locals) {
-    ensure_capacity(locals, "gravity/locals", cells.n * cells.stride);
-    double* const all = locals.data();
+namespace {
+
+/// Level by level, so that a parent is complete; each child is written with its parent's others.
+void pass_down(const Cells& cells, const CellSet& set, double* locals) {
     const CellArrays arrays = cells.arrays();
-    const ExpansionKernels& kernels = expansion_kernels();
-    std::vector<UnpackedList> unpacked(static_cast<std::size_t>(n_workers()));
-    FirstException failure;
-    const Offset* const offsets = lists.far().offset_data();
-    for_each_dynamic("gravity/m2l", static_cast<Offset>(set.ids.size()), [&](int worker, Offset k) {
-        if (failure.any()) return;
-        const CellId a = set.ids[k];
-        const Expansion own = cells.expansion(a, all);
-        std::fill_n(own.coefficients, cells.stride, 0.0);
-        const Offset n = offsets[a + 1] - offsets[a];
-        if (n == 0) return;
-        try {
-            kernels.m2l(cells.order, arrays,
-                        unpacked[worker].of(lists.far().value_data() + offsets[a], n, images), own);
-        } catch (...) {
-            failure.keep();
-        }
-    });
-    failure.rethrow("gravity, for its lists,");
-    // Level by level, so that a parent is complete; each child is written with its parent's others.
     for (std::size_t level = 0; level + 2 < set.level_starts.size(); ++level) {
         const std::size_t first = set.level_starts[level];
         for_each_dynamic("gravity/l2l", static_cast<Offset>(set.level_starts[level + 1] - first),
@@ -75,10 +55,40 @@ void make_locals(const Cells& cells, const CellLists& lists, const Images& image
                                   b < cells.first_child(c) + cells.n_children(c); ++b)
                                  if (set.contains(b)) children[n++] = b;
                              if (n > 0)
-                                 kernels.l2l(cells.order, cells.expansion(c, all), arrays,
-                                             {children, n, nullptr, nullptr}, all);
+                                 expansion_kernels().l2l(cells.order, cells.expansion(c, locals),
+                                                         arrays, {children, n, nullptr, nullptr},
+                                                         locals);
                          });
     }
+}
+
+}  // namespace
+
+void make_locals(const Cells& cells, const CellLists& lists, const Images& images,
+                 const CellSet& set, View<double>& locals) {
+    ensure_capacity(locals, "gravity/locals", cells.n * cells.stride);
+    double* const all = locals.data();
+    std::vector<UnpackedList> unpacked(static_cast<std::size_t>(n_workers()));
+    const CellArrays arrays = cells.arrays();
+    FirstException failure;
+    const Offset* const offsets = lists.far().offset_data();
+    for_each_dynamic("gravity/m2l", static_cast<Offset>(set.ids.size()), [&](int worker, Offset k) {
+        if (failure.any()) return;
+        const CellId a = set.ids[k];
+        const Expansion own = cells.expansion(a, all);
+        std::fill_n(own.coefficients, cells.stride, 0.0);
+        const Offset n = offsets[a + 1] - offsets[a];
+        if (n == 0) return;
+        try {
+            expansion_kernels().m2l(
+                cells.order, arrays,
+                unpacked[worker].of(lists.far().value_data() + offsets[a], n, images), own);
+        } catch (...) {
+            failure.keep();
+        }
+    });
+    failure.rethrow("gravity, for its lists,");
+    pass_down(cells, set, all);
 }
 
 }  // namespace connectivity::detail
