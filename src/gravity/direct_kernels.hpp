@@ -35,6 +35,24 @@ struct NearTargets {
     std::int64_t n;
 };
 
+/// Consecutive particles, and the image of the box in which they act.
+struct SourceRun {
+    std::int32_t first, n, image;
+};
+
+/// What runs are of, and how it is copied: (x + shift of the image - centre) * scale, mass *
+/// mass_scale, softening * scale.
+struct GatherFrom {
+    const double* x[3];
+    const double *mass, *softening;  ///< softening: null where there is none
+    const double* shift;             ///< [images][3]
+    double centre[3] = {0, 0, 0};
+    double scale = 1, mass_scale = 1;
+};
+
+/// A row of gathered numbers is written beyond its end by less than so many.
+constexpr std::int64_t gather_slack = 8;
+
 struct DirectKernels {
     const char* name;
     /// Adds to p and a of every target what every source does. Coordinates, masses and lengths are
@@ -42,6 +60,12 @@ struct DirectKernels {
     /// float lose digits, and count as 0 below 1e-162 and 1e-22.
     void (*add64)(PairLaw law, const NearSources<double>&, const NearTargets<double>&);
     void (*add32)(PairLaw law, const NearSources<float>&, const NearTargets<float>&);
+    /// Copies runs one after the other into rows `stride` apart: x, y, z, mass, softening (not
+    /// written where there is none). `stride` is at least their particles and gather_slack.
+    void (*gather64)(const GatherFrom& from, const SourceRun* runs, std::int64_t n_runs, double* to,
+                     std::int64_t stride);
+    void (*gather32)(const GatherFrom& from, const SourceRun* runs, std::int64_t n_runs, float* to,
+                     std::int64_t stride);
 };
 
 /// The table for this processor, or the one that CONNECTIVITY_ISA names.

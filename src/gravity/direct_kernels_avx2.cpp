@@ -14,6 +14,11 @@ struct Avx2Double {
     static constexpr T root_scale = 1;
     static F load(const T* p) { return _mm256_loadu_pd(p); }
     static void store(T* p, F a) { _mm256_storeu_pd(p, a); }
+    static void store(float* p, F a) { _mm_storeu_ps(p, _mm256_cvtpd_ps(a)); }
+    static __m256i first(int n) {
+        return _mm256_cmpgt_epi64(_mm256_set1_epi64x(n), _mm256_setr_epi64x(0, 1, 2, 3));
+    }
+    static F load_some(const T* p, __m256i some) { return _mm256_maskload_pd(p, some); }
     static F set(T a) { return _mm256_set1_pd(a); }
     static F add(F a, F b) { return _mm256_add_pd(a, b); }
     static F sub(F a, F b) { return _mm256_sub_pd(a, b); }
@@ -81,6 +86,7 @@ struct Avx2Float {
 
 }  // namespace
 
-const DirectKernels avx2_direct_kernels{"avx2", add<Avx2Double>, add<Avx2Float>};
+const DirectKernels avx2_direct_kernels{"avx2", add<Avx2Double>, add<Avx2Float>,
+                                        gather<Avx2Double, double>, gather<Avx2Double, float>};
 
 }  // namespace connectivity::detail

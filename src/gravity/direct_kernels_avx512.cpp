@@ -14,6 +14,9 @@ struct Avx512Double {
     static constexpr T root_scale = 1;
     static F load(const T* p) { return _mm512_loadu_pd(p); }
     static void store(T* p, F a) { _mm512_storeu_pd(p, a); }
+    static void store(float* p, F a) { _mm256_storeu_ps(p, _mm512_cvtpd_ps(a)); }
+    static __mmask8 first(int n) { return static_cast<__mmask8>((1 << n) - 1); }
+    static F load_some(const T* p, __mmask8 some) { return _mm512_maskz_loadu_pd(some, p); }
     static F set(T a) { return _mm512_set1_pd(a); }
     static F add(F a, F b) { return _mm512_add_pd(a, b); }
     static F sub(F a, F b) { return _mm512_sub_pd(a, b); }
@@ -67,6 +70,8 @@ struct Avx512Float {
 
 }  // namespace
 
-const DirectKernels avx512_direct_kernels{"avx512", add<Avx512Double>, add<Avx512Float>};
+const DirectKernels avx512_direct_kernels{"avx512", add<Avx512Double>, add<Avx512Float>,
+                                          gather<Avx512Double, double>,
+                                          gather<Avx512Double, float>};
 
 }  // namespace connectivity::detail

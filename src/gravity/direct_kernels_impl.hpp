@@ -7,7 +7,9 @@
 /// V has: T, F (vector of T), lanes, tile (vectors of targets that fit the registers), step
 /// (sources at a time), load, store, set, add, sub, mul, max, fma, sum (of the lanes), all_zero;
 /// inverse_root(d2, r2): root_scale / sqrt(d2) or 0 where r2 is 0, whose result may be infinite or
-/// NaN where d2 is extreme; exact_inverse_root, the same without a scale and for any d2.
+/// NaN where d2 is extreme; exact_inverse_root, the same without a scale and for any d2. V for
+/// double has: first(n), the lanes below n <= lanes; load_some(p, those), which touches no others;
+/// store of all lanes to floats.
 
 #include "direct_kernels.hpp"
 
@@ -182,8 +184,8 @@ inline void add_full_tile(const NearSources<typename V::T>& s,
     if (!add_tile<V, law, Tile, false>(s, t)) add_tile<V, law, Tile, true>(s, t);
 }
 
-/// Fewer targets than a tile: one by one, or, if there are few sources, filled up with copies of the
-/// last to vectors.
+/// Fewer targets than a tile: one by one, or, if there are few sources, filled up with copies of
+/// the last to vectors.
 template <class V, PairLaw law>
 void add_few(const NearSources<typename V::T>& s, const NearTargets<typename V::T>& t) {
     using T = typename V::T;
@@ -249,6 +251,31 @@ void add(PairLaw law, const NearSources<typename V::T>& s, const NearTargets<typ
         case PairLaw::newton: return add_runs<V, PairLaw::newton>(s, t);
         case PairLaw::plummer: return add_runs<V, PairLaw::plummer>(s, t);
         case PairLaw::sph_exa: return add_runs<V, PairLaw::sph_exa>(s, t);
+    }
+}
+
+/// Runs are short: whole vectors are stored, and what is too much is overwritten by the next run.
+template <class V, class To>
+void gather(const GatherFrom& from, const SourceRun* runs, std::int64_t n_runs, To* to,
+            std::int64_t stride) {
+    static_assert(V::lanes <= gather_slack);
+    const auto scale = V::set(from.scale), mass_scale = V::set(from.mass_scale);
+    for (const SourceRun* run = runs; run != runs + n_runs; to += run++->n) {
+        const double *const shift = from.shift + 3 * run->image, *const x = from.x[0] + run->first,
+                            *const y = from.x[1] + run->first, *const z = from.x[2] + run->first,
+                            *const m = from.mass + run->first;
+        const auto x0 = V::set(from.centre[0] - shift[0]), y0 = V::set(from.centre[1] - shift[1]),
+                   z0 = V::set(from.centre[2] - shift[2]);
+        for (int k = 0; k < run->n; k += V::lanes) {
+            const auto some = V::first(run->n - k < V::lanes ? run->n - k : V::lanes);
+            V::store(to + k, V::mul(V::sub(V::load_some(x + k, some), x0), scale));
+            V::store(to + k + stride, V::mul(V::sub(V::load_some(y + k, some), y0), scale));
+            V::store(to + k + 2 * stride, V::mul(V::sub(V::load_some(z + k, some), z0), scale));
+            V::store(to + k + 3 * stride, V::mul(V::load_some(m + k, some), mass_scale));
+            if (from.softening != nullptr)
+                V::store(to + k + 4 * stride,
+                         V::mul(V::load_some(from.softening + run->first + k, some), scale));
+        }
     }
 }
 

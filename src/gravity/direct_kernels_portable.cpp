@@ -24,6 +24,11 @@ struct Portable {
         return a;
     }
     static void store(T* p, F a) { std::memcpy(p, &a, sizeof a); }
+    static int first(int n) { return n; }
+    static F load_some(const T* p, int n) { return n == lanes ? load(p) : F{p[0]}; }
+    static void store(float* p, F a) requires(lanes == 2) {
+        p[0] = static_cast<float>(a[0]), p[1] = static_cast<float>(a[1]);
+    }
     static F set(T a) { return a - F{}; }
     static F add(F a, F b) { return a + b; }
     static F sub(F a, F b) { return a - b; }
@@ -54,7 +59,8 @@ struct Portable {
 
 }  // namespace
 
-const DirectKernels portable_direct_kernels{"portable", add<Portable<double>>,
-                                            add<Portable<float>>};
+const DirectKernels portable_direct_kernels{"portable", add<Portable<double>>, add<Portable<float>>,
+                                            gather<Portable<double>, double>,
+                                            gather<Portable<double>, float>};
 
 }  // namespace connectivity::detail

@@ -2,126 +2,155 @@
 #include "near.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace connectivity::detail {
 
+namespace {
+
+/// Sources in float are at least so many radii of the target's cell from its centre. With the least
+/// distance, 1/3 of the coordinate, 5 roundings of a float are the worst error of a distance.
+constexpr double float_radii = 1.5;
+
+/// And at least so much of the farthest one's distance, so that all powers are in range.
+constexpr double float_range = 0x1p-20;
+
+/// Smaller units, or their squares, leave the range of a double.
+constexpr double least_unit = 1e-100, least_mass = 1e-280;
+
+double power_of_two_above(double x) {
+    int exponent;
+    std::frexp(x, &exponent);
+    return std::ldexp(1.0, exponent);
+}
+
+/// Rows for so many particles, written by gather: grows only, for zeros cost.
+template <class T>
+T* rows_of(std::vector<T>& buffer, std::int64_t n_rows, std::int64_t stride) {
+    const auto size = static_cast<std::size_t>(n_rows * stride);
+    if (buffer.size() < size) buffer.resize(size);
+    return buffer.data();
+}
+
+template <class T>
+NearSources<T> sources_in(const T* rows, std::int64_t stride, std::int64_t n) {
+    return {rows, rows + stride, rows + 2 * stride, rows + 3 * stride, rows + 4 * stride, n};
+}
+
+}  // namespace
+
 void NearSum::collect(CellId cell) {
     cell_ = cell;
-    runs_.clear();
-    n_sources_ = 0;
+    double_.clear();
+    float_.clear();
+    candidates_.clear();
+    reach_ = of_.cells->softened ? of_.cells->max_softening(cell) : 0;
     const Offset* const offsets = of_.lists->near().offset_data();
     const Slot* const values = of_.lists->near().value_data();
     for (CellId a = cell;; a = of_.cells->parent(a)) {
         for (Offset e = offsets[a]; e < offsets[a + 1]; ++e) {
             const CellId b = Source::cell(values[e]);
-            add_run({Source::image(values[e]), of_.cells->first(b), of_.cells->count(b)});
+            const SourceRun run{of_.cells->first(b), of_.cells->count(b), Source::image(values[e])};
+            of_.float32 ? consider(b, run) : double_.add(run);
         }
         if (a == 0) break;
     }
+    if (of_.float32) split();
 }
 
 /// Entries come from a depth-first walk, so that cells side by side often follow each other.
-void NearSum::add_run(const Run& run) {
-    n_sources_ += run.n;
-    if (!runs_.empty()) {
-        Run& last = runs_.back();
+void NearSum::Runs::add(const SourceRun& run) {
+    n += run.n;
+    if (!runs.empty()) {
+        SourceRun& last = runs.back();
         if (last.image == run.image && last.first + last.n == run.first) {
             last.n += run.n;
             return;
         }
     }
-    runs_.push_back(run);
+    runs.push_back(run);
+}
+
+void NearSum::consider(CellId source, const SourceRun& run) {
+    const Cells& cells = *of_.cells;
+    const double radius = cells.radius(source);
+    double distance2 = 0, reach = radius;
+    for (int d = 0; d < 3; ++d) {
+        const double between =
+            cells.x(d, source) + of_.images->shift[3 * run.image + d] - cells.x(d, cell_);
+        distance2 += between * between;
+        reach += std::abs(between);
+    }
+    if (cells.softened) reach = std::max(reach, cells.max_softening(source));
+    reach_ = std::max(reach_, reach);
+    candidates_.push_back({run, distance2, radius, cells.mass(source)});
+}
+
+void NearSum::split() {
+    const double gap =
+        std::max({float_radii * of_.cells->radius(cell_), float_range * reach_, least_unit});
+    double mass = 0;
+    for (const Candidate& c : candidates_) {
+        const double least = 1.000001 * (c.radius + gap);  // more than roundings
+        if (c.distance2 > least * least) {
+            float_.add(c.run);
+            mass += c.mass;
+        } else {
+            double_.add(c.run);
+        }
+    }
+    unit_ = power_of_two_above(reach_);
+    mass_unit_ = power_of_two_above(std::max(mass, least_mass));
 }
 
 void NearSum::add(std::int32_t first, std::int32_t n, const Sums& sums) {
-    of_.float32 ? add32(first, n, sums) : add64(first, n, sums);
+    if (double_.n > 0) add64(first, n, sums);
+    if (float_.n > 0) add32(first, n, sums);
     if (of_.law == PairLaw::plummer) add_coincident(first, n, sums);
 }
 
-/// Sources as they are, x, y, z, mass, softening, one array after the other: one long call of the
-/// kernel costs less than many short ones, by more than the copy.
-void NearSum::gather64() {
-    const auto n = static_cast<std::size_t>(n_sources_);
+GatherFrom NearSum::gather_from() const {
     const TreeBodies& b = *of_.bodies;
-    doubles_.resize(5 * n);
-    std::size_t at = 0;
-    for (const Run& run : runs_) {
-        const auto rows = static_cast<std::size_t>(run.n);
-        for (std::size_t d = 0; d < 3; ++d) {
-            const double shift = of_.images->shift[3 * run.image + d];
-            const double* const x = b.x[d] + run.first;
-            double* const to = doubles_.data() + d * n + at;
-            for (std::size_t k = 0; k < rows; ++k) to[k] = x[k] + shift;
-        }
-        std::copy_n(b.mass + run.first, rows, doubles_.data() + 3 * n + at);
-        if (b.softening != nullptr)
-            std::copy_n(b.softening + run.first, rows, doubles_.data() + 4 * n + at);
-        at += rows;
-    }
+    return {{b.x[0], b.x[1], b.x[2]}, b.mass, b.softening, of_.images->shift.data()};
 }
 
+/// One long call of the kernel costs less than many short ones, by more than the copy.
 void NearSum::add64(std::int32_t first, std::int32_t n, const Sums& sums) {
-    gather64();
     const TreeBodies& b = *of_.bodies;
-    const auto rows = static_cast<std::size_t>(n_sources_);
-    const double* const s = doubles_.data();
-    direct_kernels().add64(of_.law,
-                           {s, s + rows, s + 2 * rows, s + 3 * rows, s + 4 * rows, n_sources_},
+    const std::int64_t stride = double_.n + gather_slack;
+    double* const s = rows_of(doubles_, 5, stride);
+    const auto n_runs = static_cast<std::int64_t>(double_.runs.size());
+    direct_kernels().gather64(gather_from(), double_.runs.data(), n_runs, s, stride);
+    direct_kernels().add64(of_.law, sources_in(s, stride, double_.n),
                            {b.x[0] + first, b.x[1] + first, b.x[2] + first,
                             b.softening != nullptr ? b.softening + first : nullptr, sums.p, sums.ax,
                             sums.ay, sums.az, n});
 }
 
-/// Sources as floats: x, y, z, mass, softening, one after the other.
-void NearSum::gather32(const double centre[3], double unit) {
-    const auto n = static_cast<std::size_t>(n_sources_);
-    floats_.resize(5 * n);
-    std::size_t at = 0;
-    const double scale = 1 / unit;
-    for (const Run& run : runs_) {
-        for (int d = 0; d < 3; ++d) {
-            const double origin = centre[d] - of_.images->shift[3 * run.image + d];
-            const double* const x = of_.bodies->x[d] + run.first;
-            float* const to = floats_.data() + d * n + at;
-            for (std::int32_t k = 0; k < run.n; ++k)
-                to[k] = static_cast<float>((x[k] - origin) * scale);
-        }
-        float* const mass = floats_.data() + 3 * n + at;
-        for (std::int32_t k = 0; k < run.n; ++k)
-            mass[k] = static_cast<float>(of_.bodies->mass[run.first + k]);
-        if (of_.bodies->softening != nullptr)
-            for (std::int32_t k = 0; k < run.n; ++k)
-                floats_[4 * n + at + k] =
-                    static_cast<float>(of_.bodies->softening[run.first + k] * scale);
-        at += static_cast<std::size_t>(run.n);
-    }
-}
-
 void NearSum::add32(std::int32_t first, std::int32_t n, const Sums& sums) {
-    const double centre[3] = {of_.cells->x(0, cell_), of_.cells->x(1, cell_),
-                              of_.cells->x(2, cell_)};
-    const double unit = of_.cells->scale(cell_);
-    gather32(centre, unit);
-    const auto rows = static_cast<std::size_t>(n), sources = static_cast<std::size_t>(n_sources_);
-    targets_.assign(8 * rows, 0.0F);
-    float* const t = targets_.data();
-    for (std::int32_t k = 0; k < n; ++k) {
-        for (int d = 0; d < 3; ++d)
-            t[d * rows + k] = static_cast<float>((of_.bodies->x[d][first + k] - centre[d]) / unit);
-        if (of_.bodies->softening != nullptr)
-            t[3 * rows + k] = static_cast<float>(of_.bodies->softening[first + k] / unit);
-    }
-    const float* const s = floats_.data();
+    GatherFrom from = gather_from();
+    for (int d = 0; d < 3; ++d) from.centre[d] = of_.cells->x(d, cell_);
+    from.scale = 1 / unit_;
+    from.mass_scale = 1 / mass_unit_;
+    const std::int64_t stride = float_.n + gather_slack, target_stride = n + gather_slack;
+    float* const s = rows_of(floats_, 5, stride);
+    float* const t = rows_of(targets_, 9, target_stride);
+    const auto n_runs = static_cast<std::int64_t>(float_.runs.size());
+    direct_kernels().gather32(from, float_.runs.data(), n_runs, s, stride);
+    const SourceRun targets{first, n, 0};
+    direct_kernels().gather32(from, &targets, 1, t, target_stride);
+    float* const out = t + 5 * target_stride;
+    std::fill_n(out, 4 * target_stride, 0.0F);
     direct_kernels().add32(
-        of_.law, {s, s + sources, s + 2 * sources, s + 3 * sources, s + 4 * sources, n_sources_},
-        {t, t + rows, t + 2 * rows, t + 3 * rows, t + 4 * rows, t + 5 * rows, t + 6 * rows,
-         t + 7 * rows, n});
-    const double potential = 1 / unit, force = potential / unit;
+        of_.law, sources_in(s, stride, float_.n),
+        {t, t + target_stride, t + 2 * target_stride, t + 4 * target_stride, out,
+         out + target_stride, out + 2 * target_stride, out + 3 * target_stride, n});
+    const double potential = mass_unit_ / unit_, force = potential / unit_;
     for (std::int32_t k = 0; k < n; ++k) {
-        sums.p[k] += t[4 * rows + k] * potential;
-        sums.ax[k] += t[5 * rows + k] * force;
-        sums.ay[k] += t[6 * rows + k] * force;
-        sums.az[k] += t[7 * rows + k] * force;
+        sums.p[k] += out[k] * potential;
+        sums.ax[k] += out[k + target_stride] * force;
+        sums.ay[k] += out[k + 2 * target_stride] * force;
+        sums.az[k] += out[k + 3 * target_stride] * force;
     }
 }
 

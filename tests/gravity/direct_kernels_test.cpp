@@ -322,5 +322,44 @@ TEST(DirectKernels, sums_are_added_to_what_is_there) {
     }
 }
 
+template <class T>
+void expect_copies(const DirectKernels& kernels, bool softened) {
+    const std::vector<double> x{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
+    const double shift[6] = {0, 0, 0, 100, 200, 300};
+    const std::vector<detail::SourceRun> runs{
+        {2, 1, 0}, {5, 9, 1}, {0, 19, 0}, {18, 1, 1}, {3, 6, 0}};
+    const std::int64_t n = 36, stride = n + detail::gather_slack;
+    const detail::GatherFrom from{{x.data(), x.data(), x.data()},
+                                  x.data(),
+                                  softened ? x.data() : nullptr,
+                                  shift,
+                                  {1, -1, 0},
+                                  4,
+                                  0.5};
+    std::vector<T> to(static_cast<std::size_t>(5 * stride), T{-7});
+    if constexpr (std::is_same_v<T, double>)
+        kernels.gather64(from, runs.data(), std::ssize(runs), to.data(), stride);
+    else
+        kernels.gather32(from, runs.data(), std::ssize(runs), to.data(), stride);
+    std::int64_t k = 0;
+    for (const detail::SourceRun& run : runs)
+        for (std::int32_t i = run.first; i < run.first + run.n; ++i, ++k) {
+            for (int d = 0; d < 3; ++d)
+                EXPECT_EQ(to[d * stride + k],
+                          (x[i] + shift[3 * run.image + d] - from.centre[d]) * 4);
+            EXPECT_EQ(to[3 * stride + k], x[i] / 2) << kernels.name << ' ' << k;
+            EXPECT_EQ(to[4 * stride + k], softened ? x[i] * 4 : -7) << kernels.name << ' ' << k;
+        }
+    EXPECT_EQ(k, n);
+}
+
+TEST(DirectKernels, gathered_runs_are_copies_one_after_the_other) {
+    for (const DirectKernels* const kernels : machine_kernels())
+        for (const bool softened : {false, true}) {
+            expect_copies<double>(*kernels, softened);
+            expect_copies<float>(*kernels, softened);
+        }
+}
+
 }  // namespace
 }  // namespace connectivity::test
