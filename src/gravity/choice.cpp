@@ -8,30 +8,37 @@ namespace connectivity::detail {
 
 namespace {
 
-constexpr double aim = 0.35, too_low = 0.2, too_high = 0.55;  // of the tolerance
+constexpr double aim = 0.3, too_low = 0.18, too_high = 0.45;  // of the tolerance
 constexpr int most_trials = 6;
 constexpr double least_epsilon = 1e-15, most_epsilon = 1e4;
 
 }  // namespace
 
 std::int32_t usual_leaf(const TreeSettings& settings) {
-    if (settings.form == FarForm::cell_to_particles) return 16;
-    return std::clamp(8 + 6 * settings.order, 24, 96);
+    return settings.form == FarForm::cell_to_particles ? 32 : 24;
 }
 
 int usual_order(FarForm form, double tolerance) {
     const double digits = -std::log10(tolerance);
-    if (form == FarForm::cell_to_particles)
-        return std::clamp(static_cast<int>(std::lround(1.2 * digits)), 2, max_gravity_order);
-    return std::clamp(static_cast<int>(std::lround(0.5 + 1.6 * digits)), 3, max_gravity_order);
+    if (form == FarForm::cell_to_particles) {
+        // The quadrupole has a kernel of its own, which is worth two orders.
+        const int order = static_cast<int>(std::lround(1.2 * digits));
+        return std::clamp(digits < 4.5 ? 2 : order, 2, max_gravity_order);
+    }
+    const int order = static_cast<int>(std::lround(3 + 1.6 * digits));
+    // Above 12 the even orders of M2L are the fast ones.
+    return std::clamp(order <= 12 ? order : order / 2 * 2, 3, max_gravity_order);
 }
 
 double usual_epsilon(const TreeSettings& settings, double tolerance) {
     if (settings.acceptance == Acceptance::geometric)
-        return std::min(0.9, std::pow(tolerance, 1.0 / settings.order));
+        return std::min(0.9, 1.3 * std::pow(tolerance, 1.0 / settings.order));
+    // Errors add up with all signs: the 99th percentile is a small share of epsilon, the smaller
+    // the higher the order.
     const double p = settings.order;
-    const double share = 1e-3 + 0.3 * std::exp(-0.6 * p);  // p99 over epsilon
-    return aim * tolerance / share;
+    const double share =
+        settings.form == FarForm::cell_to_particles ? 0.02 : 5e-4 + 0.5 * std::exp(-0.9 * p);
+    return std::min(2.0, aim * tolerance / share);
 }
 
 Offset direct_below(double tolerance) {
@@ -40,12 +47,13 @@ Offset direct_below(double tolerance) {
 }
 
 double cost_of(const TreeSettings& settings, const TreeWork& work, Offset n) {
-    const double p = settings.order, coefficients = (p + 1) * (p + 1);
-    const double near = work.near_pairs * (settings.float32 ? 0.4 : 1);
+    const double p = settings.order + 1, coefficients = p * p;
+    // Short lists and copies of sources make near pairs dearer than those of a direct sum.
+    const double near = work.near_pairs * (settings.float32 ? 0.8 : 1.6);
     if (settings.form == FarForm::cell_to_particles)
-        return near + work.far_pairs * (1 + 0.12 * coefficients);
-    return near + work.far_pairs * (20 + 1.5 * coefficients) +
-           static_cast<double>(n) * (10 + 0.8 * coefficients);
+        return near + work.far_pairs * (settings.order <= 2 ? 3 : 0.8 * coefficients);
+    return near + work.far_pairs * (10 + 0.13 * coefficients * p) +
+           static_cast<double>(n) * (20 + 0.8 * coefficients);
 }
 
 TreeWork fit_epsilon(TreeSum& tree, Sample& sample, double tolerance, TreeSettings& settings,

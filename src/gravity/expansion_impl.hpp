@@ -13,11 +13,14 @@ template <class V>
 void any_m2l(int order, const CellArrays& cells, const CellList& sources, const Expansion& target) {
     using M2l = void (*)(const CellArrays&, const CellList&, const Expansion&);
     constexpr M2l fixed[] = {
-        nullptr,           m2l_direct<V, 1>,  m2l_direct<V, 2>,  m2l_direct<V, 3>, m2l_turned<V, 4>,
-        m2l_turned<V, 5>,  m2l_turned<V, 6>,  m2l_turned<V, 7>,  m2l_turned<V, 8>, m2l_turned<V, 9>,
-        m2l_turned<V, 10>, m2l_turned<V, 11>, m2l_turned<V, 12>,
+        nullptr,           m2l_direct<V, 1>, m2l_direct<V, 2>,  m2l_direct<V, 3>,
+        m2l_turned<V, 4>,  m2l_turned<V, 5>, m2l_turned<V, 6>,  m2l_turned<V, 7>,
+        m2l_turned<V, 8>,  m2l_turned<V, 9>, m2l_turned<V, 10>, m2l_turned<V, 11>,
+        m2l_turned<V, 12>, nullptr,          m2l_turned<V, 14>, nullptr,
+        m2l_turned<V, 16>,
     };
-    if (order <= 12)
+    constexpr int n_fixed = sizeof fixed / sizeof *fixed;
+    if (order < n_fixed && fixed[order] != nullptr)
         fixed[order](cells, sources, target);
     else
         m2l<V>(order, cells, sources, target);
