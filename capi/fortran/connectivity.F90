@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! The C interface for Fortran 2008: connectivity.h, and the experimental connectivity_boundary.h,
-! connectivity_query.h, connectivity_tree.h and connectivity_lists.h.
+! connectivity_query.h, connectivity_tree.h, connectivity_lists.h and connectivity_gravity.h.
 !
 ! Every function of the headers is here under its name, and means what the header says, with the
 ! types of Fortran: an array brings its length, texts are character strings, truth is logical, what
@@ -43,6 +43,7 @@ module connectivity
     include 'c_query.inc'
     include 'c_tree.inc'
     include 'c_lists.inc'
+    include 'c_gravity.inc'
     include 'interfaces.inc'
 
 contains
@@ -62,5 +63,7 @@ contains
     include 'tree.inc'
     include 'tree_pointers.inc'
     include 'lists.inc'
+    include 'gravity.inc'
+    include 'gravity_results.inc'
 
 end module connectivity

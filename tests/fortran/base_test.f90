@@ -25,6 +25,9 @@ contains
         type(conn_particles_view) :: particles
         type(conn_lists_options) :: lists_options
         type(conn_classes_view) :: classes
+        type(conn_gravity_options) :: gravity_options
+        type(conn_gravity_info) :: gravity_info
+        type(conn_gravity_view) :: gravity_view
         call same(c_sizeof(array), c_sizeof(array), CONN_STRUCT_ARRAY)
         call same(c_sizeof(context_options), context_options%struct_size, &
                   CONN_STRUCT_CONTEXT_OPTIONS)
@@ -43,7 +46,11 @@ contains
         call same(c_sizeof(particles), particles%struct_size, CONN_STRUCT_PARTICLES_VIEW)
         call same(c_sizeof(lists_options), lists_options%struct_size, CONN_STRUCT_LISTS_OPTIONS)
         call same(c_sizeof(classes), classes%struct_size, CONN_STRUCT_CLASSES_VIEW)
-        call expect(conn_abi_sizeof(CONN_STRUCT_CLASSES_VIEW + 1) == 0, 'there is no other struct')
+        call same(c_sizeof(gravity_options), gravity_options%struct_size, &
+                  CONN_STRUCT_GRAVITY_OPTIONS)
+        call same(c_sizeof(gravity_info), gravity_info%struct_size, CONN_STRUCT_GRAVITY_INFO)
+        call same(c_sizeof(gravity_view), gravity_view%struct_size, CONN_STRUCT_GRAVITY_VIEW)
+        call expect(conn_abi_sizeof(CONN_STRUCT_GRAVITY_VIEW + 1) == 0, 'there is no other struct')
     end subroutine structs_have_the_sizes_of_c
 
     subroutine same(bytes, struct_size, which)
@@ -60,6 +67,7 @@ contains
         type(conn_context_options) :: context_ours, context_of_c
         type(conn_tree_options) :: tree_ours, tree_of_c
         type(conn_lists_options) :: lists_ours, lists_of_c
+        type(conn_gravity_options) :: gravity_ours, gravity_of_c
         integer(c_int8_t), parameter :: garbage = 77
         of_c = transfer(spread(garbage, 1, int(c_sizeof(ours))), of_c)
         call expect_ok(conn_map_options_init(of_c), 'options of a map are initialised')
@@ -77,6 +85,10 @@ contains
         call expect_ok(conn_lists_options_init(lists_of_c), 'options of interaction lists')
         call expect(all(transfer(lists_ours, [garbage]) == transfer(lists_of_c, [garbage])), &
                     'default options of interaction lists are byte for byte those of C')
+        gravity_of_c = transfer(spread(garbage, 1, int(c_sizeof(gravity_ours))), gravity_of_c)
+        call expect_ok(conn_gravity_options_init(gravity_of_c), 'options of gravity')
+        call expect(all(transfer(gravity_ours, [garbage]) == transfer(gravity_of_c, [garbage])), &
+                    'default options of gravity are byte for byte those of C')
     end subroutine defaults_are_those_of_c
 
     subroutine the_module_is_of_the_version_of_the_library()

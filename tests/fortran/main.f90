@@ -9,6 +9,7 @@ program main
     use fields_test
     use experimental_test
     use trees_test
+    use gravity_test
     implicit none
     character(100) :: law
 
@@ -80,6 +81,10 @@ program main
         call every_target_meets_every_source_once()
     case ('lookups_find_leaves_balls_and_targets')
         call lookups_find_leaves_balls_and_targets()
+    case ('every_form_of_the_particles_gives_the_forces_of_the_definition')
+        call every_form_of_the_particles_gives_the_forces_of_the_definition()
+    case ('settings_and_results_of_gravity_are_those_of_c')
+        call settings_and_results_of_gravity_are_those_of_c()
     case ('nothing_works_after_a_shutdown')
         call nothing_works_after_a_shutdown()
     case default
