@@ -8,9 +8,9 @@ namespace connectivity::detail {
 
 namespace {
 
-constexpr double aim = 0.3, too_low = 0.18, too_high = 0.45;  // of the tolerance
-constexpr int most_trials = 6;
-constexpr double least_epsilon = 1e-15, most_epsilon = 1e4;
+constexpr double aim = 0.22, too_low = 0.13, too_high = 0.35;  // of the tolerance
+constexpr int most_trials = 8;
+constexpr double least_epsilon = 1e-15, most_epsilon = 1e4, most_angle = 0.95;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ double usual_epsilon(const TreeSettings& settings, double tolerance) {
 
 Offset direct_below(double tolerance) {
     const double digits = -std::log10(tolerance);
-    return static_cast<Offset>(600 + 500 * digits);
+    return static_cast<Offset>(3000 + 1000 * std::pow(std::max(digits, 0.0), 1.47));
 }
 
 double cost_of(const TreeSettings& settings, const TreeWork& work, Offset n) {
@@ -56,28 +56,63 @@ double cost_of(const TreeSettings& settings, const TreeWork& work, Offset n) {
            static_cast<double>(n) * (20 + 0.8 * coefficients);
 }
 
+namespace {
+
+/// Where epsilon is looked for: errors grow with it, about in proportion (with an angle: as its
+/// power), but in steps where there are few cells.
+class Bracket {
+public:
+    Bracket(double least, double most, double slope) : least_(least), most_(most), slope_(slope) {}
+
+    void add(double epsilon, double error) {
+        (error > too_high ? above_ : below_) = {epsilon, error};
+    }
+    /// The best one known: the largest whose error is low enough, or else the smallest.
+    double best() const { return below_.epsilon > 0 ? below_.epsilon : above_.epsilon; }
+    /// The next to be tried; `best` again where nothing is left.
+    double next() const {
+        const bool both = below_.epsilon > 0 && above_.epsilon > 0;
+        const Trial& from = below_.epsilon > 0 ? below_ : above_;
+        double slope = slope_;
+        if (both && below_.error > 0)
+            slope =
+                std::log(above_.error / below_.error) / std::log(above_.epsilon / below_.epsilon);
+        const double step = from.error > 0 ? std::log(aim / from.error) / slope : std::log(1e3);
+        double epsilon = from.epsilon * std::exp(std::clamp(step, std::log(1e-4), std::log(1e3)));
+        if (both) {
+            const double width = std::log(above_.epsilon / below_.epsilon);
+            if (width < 0.05) return below_.epsilon;
+            epsilon = std::clamp(epsilon, below_.epsilon * std::exp(0.2 * width),
+                                 below_.epsilon * std::exp(0.8 * width));
+        }
+        return std::clamp(epsilon, least_, most_);
+    }
+
+private:
+    struct Trial {
+        double epsilon = 0, error = 0;
+    };
+    Trial below_, above_;
+    double least_, most_, slope_;
+};
+
+}  // namespace
+
 TreeWork fit_epsilon(TreeSum& tree, Sample& sample, double tolerance, TreeSettings& settings,
                      SumArrays& trial) {
     trial.resize(sample.n());
-    double last_epsilon = 0, last_error = 0;
     const bool angle = settings.acceptance == Acceptance::geometric;
+    Bracket bracket(least_epsilon, angle ? most_angle : most_epsilon, angle ? settings.order : 1);
     for (int k = 0;; ++k) {
         const TreeWork work = tree.sum_some(settings, sample.places(), trial.sums());
         if (k == 0) tree.measure_scales(sample.field(), sample.potential());
-        const double error = sample.errors(trial).acceleration.p99 / tolerance;
-        if ((error >= too_low && error <= too_high) || k + 1 == most_trials) return work;
-        // log(error) is nearly linear in log(epsilon).
-        double slope = angle ? settings.order : 1;
-        if (k > 0 && error > 0 && last_error > 0 && settings.epsilon != last_epsilon)
-            slope =
-                std::clamp(std::log(error / last_error) / std::log(settings.epsilon / last_epsilon),
-                           0.3 * slope, 3 * slope);
-        last_epsilon = settings.epsilon;
-        last_error = error;
-        const double factor = error > 0 ? std::pow(aim / error, 1 / slope) : 1e3;
-        settings.epsilon = std::clamp(settings.epsilon * std::clamp(factor, 1e-4, 1e3),
-                                      least_epsilon, angle ? 0.95 : most_epsilon);
-        if (settings.epsilon == last_epsilon) return work;
+        const double error = sample.errors(trial).feared() / tolerance;
+        if (error >= too_low && error <= too_high) return work;
+        bracket.add(settings.epsilon, error);
+        const double next = k + 1 < most_trials ? bracket.next() : bracket.best();
+        if (next == settings.epsilon) return work;
+        settings.epsilon = next;
+        if (k + 1 == most_trials) return tree.sum_some(settings, sample.places(), trial.sums());
     }
 }
 

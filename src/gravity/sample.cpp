@@ -8,6 +8,8 @@ namespace connectivity::detail {
 
 namespace {
 
+constexpr Offset many_particles = 5000;
+
 /// Steele, Lea & Flood's splitmix64: numbers that depend on the place alone.
 std::uint64_t mixed(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15U;
@@ -52,6 +54,7 @@ double SumArrays::acceleration(Offset i) const { return length(a(0, i), a(1, i),
 void Sample::draw(const TreeBodies& bodies, PairLaw law, const Images& images,
                   LatticeField* lattice, int n_samples, std::uint64_t seed) {
     const Offset n = std::min<Offset>(n_samples, bodies.n);
+    n_particles_ = bodies.n;
     places_.resize(static_cast<std::size_t>(n));
     for (Offset k = 0; k < n; ++k) {
         const Offset first = k * bodies.n / n, last = (k + 1) * bodies.n / n;

@@ -18,10 +18,11 @@ enum class GravityMethod {
     fmm      ///< multipoles of cells as local expansions of cells (fast multipole method)
 };
 
-/// When the expansion of order p of a cell B may act on the particles of a cell (or group) A. R is the
-/// distance of the centres of mass, r_A and r_B reach the farthest particle from them, and rho_B <= r_B
-/// is the radius at which B's masses would have the moment that they have: the q-th root of
-/// sum |m| r^q / sum |m|. What the first neglected terms can be at most, as a share of M_B / R²:
+/// When the expansion of order p of a cell B may act on the particles of a cell (or group) A. R is
+/// the distance of the centres of mass, r_A and r_B reach the farthest particle from them, and
+/// rho_B <= r_B is the radius at which B's masses would have the moment that they have: the q-th
+/// root of sum |m| r^q / sum |m|. What the first neglected terms can be at most, as a share of M_B
+/// / R²:
 ///
 ///     fmm    E = (p + 1) ((r_A + rho_B) / R)^p           q = p      terms n + k <= p are kept
 ///     walk   E = (p + 2) (rho_B / (R - r_A))^(p + 1)     q = p + 1
@@ -57,10 +58,10 @@ struct GravityOptions {
     double tolerance = 1e-4;
 
     /// By hand; what is absent is chosen so that the tolerance is met.
-    std::optional<int> order;  ///< of expansions, in [1, max_gravity_order]
-    std::optional<Acceptance> acceptance;
-    std::optional<double> epsilon;     ///< of the acceptance; > 0, geometric: < 1
-    std::optional<std::int32_t> leaf;  ///< most particles in a leaf, >= 1
+    std::optional<int> order{};  ///< of expansions, in [1, max_gravity_order]
+    std::optional<Acceptance> acceptance{};
+    std::optional<double> epsilon{};     ///< of the acceptance; > 0, geometric: < 1
+    std::optional<std::int32_t> leaf{};  ///< most particles in a leaf, >= 1
     NearPrecision near = NearPrecision::automatic;
 
     /// Newton's third law to round-off: B acts on A through its expansion only if A does on B. For
@@ -70,13 +71,13 @@ struct GravityOptions {
     double constant = 1;  ///< of gravity, > 0
     /// Open, or periodic on all three axes: images of the box without end and a uniform background
     /// that makes the mean density 0 (Ewald's sum with conducting surroundings).
-    Domain domain;
+    Domain domain{};
     /// [n] lengths of the accelerations of the step before, for Acceptance::acceleration.
-    ConstView<double> previous_acceleration;
+    ConstView<double> previous_acceleration{};
     int n_samples = 300;  ///< targets summed directly to check the error; 0: no check, max 100000
     std::uint64_t seed = 1;    ///< of the sample
     bool error_bound = false;  ///< keep a bound of the error of each particle, see Gravity
-    Budget budget;
+    Budget budget{};
 };
 
 constexpr int max_gravity_order = 20;
