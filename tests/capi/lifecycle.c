@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include <connectivity_boundary.h>
+#include <connectivity_gravity.h>
 #include <connectivity_lists.h>
 #include <connectivity_query.h>
 
@@ -41,6 +42,8 @@ typedef struct host {
     conn_tree_view boxes;
     conn_box_list_view direct;
     conn_classes_view classes;
+    conn_gravity* gravity;
+    conn_gravity_view forces;
 } host;
 
 /* A square lattice of spacing 1 with supports of 1.2. */
@@ -65,6 +68,19 @@ static conn_status build_tree(host* h) {
     input.sources = &positions;
     options.max_particles_in_box = 4;
     return conn_tree_build(h->tree, &input, &options);
+}
+
+/* Forces of the lattice, by cells. */
+static conn_status solve(host* h) {
+    double x[n][2];
+    const double one = 1;
+    conn_array masses = conn_array_vector(&one, n);
+    conn_gravity_options options = CONN_GRAVITY_OPTIONS_INIT;
+    for (int i = 0; i < n; ++i) x[i][0] = i % side, x[i][1] = i / side;
+    const conn_array positions = conn_array_matrix(&x[0][0], n, 2);
+    masses.stride[0] = 0;
+    options.method = CONN_GRAVITY_FMM;
+    return conn_gravity_solve(h->gravity, &positions, 1, &masses, NULL, &options);
 }
 
 static conn_status rebuild(host* h) {
@@ -109,6 +125,13 @@ static void start_lists(host* h) {
     REQUIRE(h->boxes.n_sources == n && h->direct.n_entries > 0);
 }
 
+static void start_gravity(host* h) {
+    REQUIRE(conn_gravity_create(h->context, &h->gravity) == CONN_OK);
+    REQUIRE(solve(h) == CONN_OK);
+    REQUIRE(conn_gravity_acquire(h->gravity, CONN_SPACE_HOST, &h->forces) == CONN_OK);
+    REQUIRE(h->forces.n == n && h->forces.potential[0] < 0);
+}
+
 static void finish_lists(host* h) {
     REQUIRE(conn_tree_destroy(&h->tree) == CONN_OK && h->tree == NULL);
     REQUIRE(conn_lists_destroy(&h->lists) == CONN_OK && h->lists == NULL);
@@ -132,7 +155,9 @@ static host start(int n_threads) {
               NULL,
               CONN_TREE_VIEW_INIT,
               CONN_BOX_LIST_VIEW_INIT,
-              CONN_CLASSES_VIEW_INIT};
+              CONN_CLASSES_VIEW_INIT,
+              NULL,
+              CONN_GRAVITY_VIEW_INIT};
     uint8_t active[n];
     conn_map_options map_options = CONN_MAP_OPTIONS_INIT;
     memset(active, 1, sizeof active);
@@ -151,11 +176,14 @@ static host start(int n_threads) {
     REQUIRE(h.pairs.n_pairs == n_pairs);
     start_ghosts(&h);
     start_lists(&h);
+    start_gravity(&h);
     return h;
 }
 
 static void finish(host* h) {
     finish_lists(h);
+    REQUIRE(conn_gravity_destroy(&h->gravity) == CONN_OK && h->gravity == NULL);
+    REQUIRE(conn_gravity_release(&h->forces) == CONN_OK && h->forces.potential == NULL);
     REQUIRE(conn_map_rows_release(&h->rows) == CONN_OK && h->rows.slots == NULL);
     REQUIRE(conn_map_pairs_release(&h->pairs) == CONN_OK && h->pairs.j == NULL);
     REQUIRE(conn_map_intersection_release(&h->common) == CONN_OK && h->common.slots == NULL);
@@ -177,6 +205,8 @@ static void require_all(host* h, conn_status expected) {
     conn_map* map = NULL;
     conn_pairs_view pairs = CONN_PAIRS_VIEW_INIT;
     conn_tree_view boxes = CONN_TREE_VIEW_INIT;
+    conn_gravity_view forces = CONN_GRAVITY_VIEW_INIT;
+    conn_gravity_info info = CONN_GRAVITY_INFO_INIT;
     conn_estimate estimate = CONN_ESTIMATE_INIT;
     const double one = 1;
     double out = 0;
@@ -196,6 +226,11 @@ static void require_all(host* h, conn_status expected) {
     REQUIRE(conn_tree_acquire(h->tree, CONN_SPACE_HOST, &boxes) == expected);
     REQUIRE(conn_lists_rebuild(h->lists, h->tree, NULL) == expected);
     REQUIRE(conn_lists_work(h->lists, CONN_WORK_M2L, NULL, 0, &count, NULL) == expected);
+    REQUIRE(solve(h) == expected);
+    REQUIRE(conn_gravity_acquire(h->gravity, CONN_SPACE_HOST, &forces) == expected);
+    REQUIRE(conn_gravity_get_info(h->gravity, &info) == expected);
+    REQUIRE(conn_gravity_copy(h->gravity, NULL, 0, NULL, NULL) == expected);
+    REQUIRE(conn_gravity_release_scratch(h->gravity) == expected);
     REQUIRE(conn_map_estimate(h->map, &h->nodes, 1, &estimate) == expected);
     REQUIRE(conn_map_memory(h->map, CONN_SPACE_HOST, &count, NULL) == expected);
     REQUIRE(conn_map_rows_copy(h->map, NULL, 0, &count, NULL, 0, &count) == expected);
@@ -219,7 +254,7 @@ static void late_destroy(void) {
 
 static void child(host* h, int n_threads) {
     if (n_threads == 1) {
-        REQUIRE(rebuild(h) == CONN_OK && build_tree(h) == CONN_OK);
+        REQUIRE(rebuild(h) == CONN_OK && build_tree(h) == CONN_OK && solve(h) == CONN_OK);
         finish(h);
         _exit(0);
     }
