@@ -151,10 +151,10 @@ void CellLists::build(const Cells& cells, const FarTest& test, const WalkRule& r
     candidates_.clear();
     for (int image = 0; image < images.n; ++image) candidates_.push_back(Source::pack(0, image));
     const Offset share = Offset{cells.count(0)} / n_tasks;
-    std::vector<Task> top{{0, 0, candidates_.size()}};
-    while (!top.empty()) {
-        const Task t = top.back();
-        top.pop_back();
+    top_.assign(1, {0, 0, candidates_.size()});
+    while (!top_.empty()) {
+        const Task t = top_.back();
+        top_.pop_back();
         if (cells.count(t.cell) <= share || walk.is_terminal(t.cell)) {
             tasks_.push_back(t);
             continue;
@@ -165,7 +165,7 @@ void CellLists::build(const Cells& cells, const FarTest& test, const WalkRule& r
         const std::size_t first = candidates_.size();
         candidates_.insert(candidates_.end(), w.deferred.begin(), w.deferred.end());
         for_active_children(t.cell, [&](CellId c) {
-            top.push_back({c, first, candidates_.size()});
+            top_.push_back({c, first, candidates_.size()});
         });
     }
 
@@ -230,6 +230,7 @@ void CellLists::clear() {
     near_.clear();
     workers_.clear();
     tasks_ = {};
+    top_ = {};
     candidates_ = {};
     far_rows_ = near_rows_ = {};
 }

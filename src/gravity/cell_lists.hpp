@@ -91,7 +91,7 @@ private:
 
     Csr far_{"gravity/far"}, near_{"gravity/near"};
     std::vector<Worker> workers_;
-    std::vector<Task> tasks_;
+    std::vector<Task> tasks_, top_;
     std::vector<std::int32_t> candidates_;
     View<Row> far_rows_, near_rows_;
 };

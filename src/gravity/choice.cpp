@@ -25,7 +25,7 @@ int usual_order(FarForm form, double tolerance) {
         const int order = static_cast<int>(std::lround(1.2 * digits));
         return std::clamp(digits < 4.5 ? 2 : order, 2, max_gravity_order);
     }
-    const int order = static_cast<int>(std::lround(3 + 1.6 * digits));
+    const int order = static_cast<int>(std::lround(3.2 + 1.65 * digits));
     // Above 12 the even orders of M2L are the fast ones.
     return std::clamp(order <= 12 ? order : order / 2 * 2, 3, max_gravity_order);
 }

@@ -14,21 +14,21 @@ double opening(const FarChoice& c, int degree) {
 
 }  // namespace
 
-FarTest::FarTest(const Cells& cells, const FarChoice& choice)
-    : k_(cells),
-      c_(choice),
-      walk_(static_cast<std::size_t>(cells.n)),
-      is_plain_(choice.acceptance != Acceptance::acceleration && !choice.symmetric &&
-                !cells.softened),
-      degree_(far_degree(choice.form, choice.order)),
-      first_term_((degree_ + 1) / choice.epsilon),
-      soft_(std::sqrt(1.5 / choice.softening_error)) {
+void FarTest::set(const Cells& cells, const FarChoice& choice) {
+    ensure_capacity(walk_, "gravity/walk", cells.n);
+    k_ = &cells;
+    c_ = choice;
+    is_plain_ =
+        choice.acceptance != Acceptance::acceleration && !choice.symmetric && !cells.softened;
+    degree_ = far_degree(choice.form, choice.order);
+    first_term_ = (degree_ + 1) / choice.epsilon;
+    soft_ = std::sqrt(1.5 / choice.softening_error);
     const double open = opening(c_, degree_);
     const bool by_angle = c_.acceptance == Acceptance::geometric;
     const bool particles = c_.form == FarForm::cell_to_particles;
     for (CellId c = 0; c < cells.n; ++c) {
         const double r = cells.radius(c);
-        walk_[c] = {{cells.x(0, c), cells.x(1, c), cells.x(2, c)},
+        walk_(c) = {{cells.x(0, c), cells.x(1, c), cells.x(2, c)},
                     r,
                     particles && !by_angle ? r : open * r,
                     open * (by_angle ? r : cells.rho(c)),
@@ -39,29 +39,30 @@ FarTest::FarTest(const Cells& cells, const FarChoice& choice)
 }
 
 bool FarTest::is_accurate(CellId a, CellId b, double d2) const {
-    if (k_.softened && !is_unsoftened(a, b, d2)) return false;
+    if (k_->softened && !is_unsoftened(a, b, d2)) return false;
     if (c_.acceptance == Acceptance::acceleration)
         return is_weak(a, b, d2) && (!c_.symmetric || is_weak(b, a, d2));
     if (!c_.symmetric) return true;
-    const double back = walk_[b].as_target + walk_[a].as_source;
+    const double back = (*this)[b].as_target + (*this)[a].as_source;
     return d2 > back * back;
 }
 
 bool FarTest::is_weak(CellId a, CellId b, double d2) const {
     const double r = std::sqrt(d2);
-    double ratio = c_.form == FarForm::cell_to_particles ? k_.rho(b) / (r - k_.radius(a))
-                                                         : (k_.radius(a) + k_.rho(b)) / r;
+    double ratio = c_.form == FarForm::cell_to_particles ? k_->rho(b) / (r - k_->radius(a))
+                                                         : (k_->radius(a) + k_->rho(b)) / r;
     double power = 1;
     for (int q = degree_; q > 0; q >>= 1, ratio *= ratio)
         if ((q & 1) != 0) power *= ratio;
-    return first_term_ * power * k_.mass(b) < c_.weakest[a] * d2;
+    return first_term_ * power * k_->mass(b) < c_.weakest[a] * d2;
 }
 
 /// Plummer's force differs from Newton's by 3/2 e²/r²; SPH-EXA's is Newton's outside.
 bool FarTest::is_unsoftened(CellId a, CellId b, double d2) const {
-    const double ea = k_.max_softening(a), eb = k_.max_softening(b);
-    const double reach = c_.softening == Softening::sph_exa ? k_.radius(a) + k_.radius(b) + ea + eb
-                                                            : soft_ * std::max(ea, eb);
+    const double ea = k_->max_softening(a), eb = k_->max_softening(b);
+    const double reach = c_.softening == Softening::sph_exa
+                             ? k_->radius(a) + k_->radius(b) + ea + eb
+                             : soft_ * std::max(ea, eb);
     return d2 > reach * reach;
 }
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <connectivity/gravity/options.hpp>
 
@@ -46,13 +45,16 @@ struct alignas(64) WalkCell {
 
 class FarTest {
 public:
-    FarTest(const Cells& cells, const FarChoice& choice);
+    /// Takes up what the choice says of these cells, which must outlive its use. Throws
+    /// Error{memory}.
+    void set(const Cells& cells, const FarChoice& choice);
 
-    const WalkCell& operator[](CellId c) const { return walk_[c]; }
+    const WalkCell& operator[](CellId c) const { return walk_.data()[c]; }
     FarForm form() const { return c_.form; }
+    Offset bytes() const { return static_cast<Offset>(walk_.size() * sizeof(WalkCell)); }
     /// May b's expansion act on a? d2: squared distance of their centres.
     bool operator()(CellId a, CellId b, double d2) const {
-        const WalkCell &t = walk_[a], &s = walk_[b];
+        const WalkCell &t = (*this)[a], &s = (*this)[b];
         const double touch = t.radius + s.radius, reach = t.as_target + s.as_source;
         if (!(d2 > touch * touch) || !(d2 > reach * reach)) return false;
         return is_plain_ || is_accurate(a, b, d2);
@@ -63,12 +65,12 @@ private:
     bool is_weak(CellId a, CellId b, double d2) const;
     bool is_unsoftened(CellId a, CellId b, double d2) const;
 
-    const Cells& k_;
+    const Cells* k_ = nullptr;
     FarChoice c_;
-    std::vector<WalkCell> walk_;
-    bool is_plain_;  ///< reach says all
-    int degree_;
-    double first_term_, soft_;
+    View<WalkCell> walk_;
+    bool is_plain_ = true;  ///< reach says all
+    int degree_ = 0;
+    double first_term_ = 0, soft_ = 0;
 };
 
 }  // namespace connectivity::detail

@@ -65,10 +65,9 @@ void pass_down(const Cells& cells, const CellSet& set, double* locals) {
 }  // namespace
 
 void make_locals(const Cells& cells, const CellLists& lists, const Images& images,
-                 const CellSet& set, View<double>& locals) {
+                 const CellSet& set, std::vector<UnpackedList>& unpacked, View<double>& locals) {
     ensure_capacity(locals, "gravity/locals", cells.n * cells.stride);
     double* const all = locals.data();
-    std::vector<UnpackedList> unpacked(static_cast<std::size_t>(n_workers()));
     const CellArrays arrays = cells.arrays();
     FirstException failure;
     const Offset* const offsets = lists.far().offset_data();

@@ -26,8 +26,8 @@ void take_all(const Cells& cells, CellSet& set);
 void take_paths(const Cells& cells, const std::vector<std::int32_t>& particles, CellSet& set);
 
 /// Locals of the cells of a set, in [cells.n][cells.stride], of which nothing else is touched.
-/// Throws Error{memory}.
+/// `unpacked` is scratch, one a worker. Throws Error{memory}.
 void make_locals(const Cells& cells, const CellLists& lists, const Images& images,
-                 const CellSet& set, View<double>& locals);
+                 const CellSet& set, std::vector<UnpackedList>& unpacked, View<double>& locals);
 
 }  // namespace connectivity::detail

@@ -132,11 +132,13 @@ void TreeSum::make_lists(const TreeSettings& settings) {
     rule.near_pairs = near_pairs(settings);
     rule.group = group_size;
     rule.active = set_.mask();
-    lists_.build(cells_, FarTest(cells_, far_choice(settings)), rule, images_);
+    test_.set(cells_, far_choice(settings));
+    lists_.build(cells_, test_, rule, images_);
     report_.entry("lists").ms += watch.ms();
     if (settings.form == FarForm::cell_to_particles) return;
     const Stopwatch far_watch;
-    make_locals(cells_, lists_, images_, set_, locals_);
+    unpacked_.resize(static_cast<std::size_t>(n_workers()));
+    make_locals(cells_, lists_, images_, set_, unpacked_, locals_);
     report_.entry("far").ms += far_watch.ms();
 }
 
@@ -259,7 +261,7 @@ void TreeSum::bound_errors(const TreeSettings& settings, double* bounds) {
 }
 
 Offset TreeSum::bytes() const {
-    return tree_.bytes() + tree_.scratch_bytes() + cells_.bytes() + lists_.bytes() +
+    return tree_.bytes() + tree_.scratch_bytes() + cells_.bytes() + test_.bytes() + lists_.bytes() +
            static_cast<Offset>((mass_.size() + softening_.size() + weakest_.size() +
                                 locals_.size() + bounds_.size()) *
                                sizeof(double));

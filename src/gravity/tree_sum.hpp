@@ -94,6 +94,7 @@ private:
     View<double> mass_, softening_, weakest_;
     bool has_weakest_ = false;
     Cells cells_;
+    FarTest test_;
     CellLists lists_;
     CellSet set_;
     Images images_;
