@@ -40,14 +40,14 @@ struct SourceRun {
     std::int32_t first, n, image;
 };
 
-/// What runs are of, and how it is copied: (x + shift of the image - centre) * scale, mass *
-/// mass_scale, softening * scale.
+/// What runs are of, and how it is copied: (x + shift of the image - centre) * scale, mass,
+/// softening * scale.
 struct GatherFrom {
     const double* x[3];
     const double *mass, *softening;  ///< softening: null where there is none
     const double* shift;             ///< [images][3]
     double centre[3] = {0, 0, 0};
-    double scale = 1, mass_scale = 1;
+    double scale = 1;
 };
 
 /// A row of gathered numbers is written beyond its end by less than so many.

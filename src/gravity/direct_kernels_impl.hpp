@@ -259,7 +259,7 @@ template <class V, class To>
 void gather(const GatherFrom& from, const SourceRun* runs, std::int64_t n_runs, To* to,
             std::int64_t stride) {
     static_assert(V::lanes <= gather_slack);
-    const auto scale = V::set(from.scale), mass_scale = V::set(from.mass_scale);
+    const auto scale = V::set(from.scale);
     for (const SourceRun* run = runs; run != runs + n_runs; to += run++->n) {
         const double *const shift = from.shift + 3 * run->image, *const x = from.x[0] + run->first,
                             *const y = from.x[1] + run->first, *const z = from.x[2] + run->first,
@@ -271,7 +271,7 @@ void gather(const GatherFrom& from, const SourceRun* runs, std::int64_t n_runs, 
             V::store(to + k, V::mul(V::sub(V::load_some(x + k, some), x0), scale));
             V::store(to + k + stride, V::mul(V::sub(V::load_some(y + k, some), y0), scale));
             V::store(to + k + 2 * stride, V::mul(V::sub(V::load_some(z + k, some), z0), scale));
-            V::store(to + k + 3 * stride, V::mul(V::load_some(m + k, some), mass_scale));
+            V::store(to + k + 3 * stride, V::load_some(m + k, some));
             if (from.softening != nullptr)
                 V::store(to + k + 4 * stride,
                          V::mul(V::load_some(from.softening + run->first + k, some), scale));

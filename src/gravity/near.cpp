@@ -12,11 +12,8 @@ namespace {
 /// distance, 1/3 of the coordinate, 5 roundings of a float are the worst error of a distance.
 constexpr double float_radii = 1.5;
 
-/// And at least so much of the farthest one's distance, so that all powers are in range.
-constexpr double float_range = 0x1p-20;
-
-/// Smaller units, or their squares, leave the range of a double.
-constexpr double least_unit = 1e-100, least_mass = 1e-280;
+/// And at least so much of the largest distance, so that all powers are in a float's range.
+constexpr double float_range = 0x1p-40;
 
 double power_of_two_above(double x) {
     int exponent;
@@ -39,28 +36,51 @@ NearSources<T> sources_in(const T* rows, std::int64_t stride, std::int64_t n) {
 
 }  // namespace
 
+void NearSum::begin(const NearProblem& problem) {
+    of_ = problem;
+    const Cells& cells = *of_.cells;
+    double shift = 0;
+    for (const double s : of_.images->shift) shift = std::max(shift, std::abs(s));
+    reach_ = 2 * (cells.radius(0) + shift);
+    if (cells.softened) reach_ = std::max(reach_, cells.max_softening(0));
+    unit_ = power_of_two_above(reach_);
+}
+
 void NearSum::collect(CellId cell) {
     cell_ = cell;
     double_.clear();
     float_.clear();
-    candidates_.clear();
-    reach_ = of_.cells->softened ? of_.cells->max_softening(cell) : 0;
+    const Cells& cells = *of_.cells;
+    const double gap = std::max(float_radii * cells.radius(cell), float_range * reach_);
     const Offset* const offsets = of_.lists->near().offset_data();
     const Slot* const values = of_.lists->near().value_data();
-    for (CellId a = cell;; a = of_.cells->parent(a)) {
+    for (CellId a = cell;; a = cells.parent(a)) {
         for (Offset e = offsets[a]; e < offsets[a + 1]; ++e) {
             const CellId b = Source::cell(values[e]);
-            const SourceRun run{of_.cells->first(b), of_.cells->count(b), Source::image(values[e])};
-            of_.float32 ? consider(b, run) : double_.add(run);
+            const SourceRun run{cells.first(b), cells.count(b), Source::image(values[e])};
+            Runs* const runs = of_.float32 && is_apart(b, run.image, gap) ? &float_ : &double_;
+            runs->add(run);
         }
         if (a == 0) break;
     }
-    if (of_.float32) split();
+}
+
+/// Whether all particles of `source` are farther than `gap` from the centre of the targets' cell.
+bool NearSum::is_apart(CellId source, int image, double gap) const {
+    const Cells& cells = *of_.cells;
+    const double* const shift = of_.images->shift.data() + 3 * image;
+    double distance2 = 0;
+    for (int d = 0; d < 3; ++d) {
+        const double between = cells.x(d, source) + shift[d] - cells.x(d, cell_);
+        distance2 += between * between;
+    }
+    const double least = 1.000001 * (cells.radius(source) + gap);  // more than roundings
+    return distance2 > least * least;
 }
 
 /// Entries come from a depth-first walk, so that cells side by side often follow each other.
 void NearSum::Runs::add(const SourceRun& run) {
-    n += run.n;
+    n_sources += run.n;
     if (!runs.empty()) {
         SourceRun& last = runs.back();
         if (last.image == run.image && last.first + last.n == run.first) {
@@ -71,41 +91,9 @@ void NearSum::Runs::add(const SourceRun& run) {
     runs.push_back(run);
 }
 
-void NearSum::consider(CellId source, const SourceRun& run) {
-    const Cells& cells = *of_.cells;
-    const double radius = cells.radius(source);
-    double distance2 = 0, reach = radius;
-    for (int d = 0; d < 3; ++d) {
-        const double between =
-            cells.x(d, source) + of_.images->shift[3 * run.image + d] - cells.x(d, cell_);
-        distance2 += between * between;
-        reach += std::abs(between);
-    }
-    if (cells.softened) reach = std::max(reach, cells.max_softening(source));
-    reach_ = std::max(reach_, reach);
-    candidates_.push_back({run, distance2, radius, cells.mass(source)});
-}
-
-void NearSum::split() {
-    const double gap =
-        std::max({float_radii * of_.cells->radius(cell_), float_range * reach_, least_unit});
-    double mass = 0;
-    for (const Candidate& c : candidates_) {
-        const double least = 1.000001 * (c.radius + gap);  // more than roundings
-        if (c.distance2 > least * least) {
-            float_.add(c.run);
-            mass += c.mass;
-        } else {
-            double_.add(c.run);
-        }
-    }
-    unit_ = power_of_two_above(reach_);
-    mass_unit_ = power_of_two_above(std::max(mass, least_mass));
-}
-
 void NearSum::add(std::int32_t first, std::int32_t n, const Sums& sums) {
-    if (double_.n > 0) add64(first, n, sums);
-    if (float_.n > 0) add32(first, n, sums);
+    if (double_.n_sources > 0) add64(first, n, sums);
+    if (float_.n_sources > 0) add32(first, n, sums);
     if (of_.law == PairLaw::plummer) add_coincident(first, n, sums);
 }
 
@@ -117,11 +105,10 @@ GatherFrom NearSum::gather_from() const {
 /// One long call of the kernel costs less than many short ones, by more than the copy.
 void NearSum::add64(std::int32_t first, std::int32_t n, const Sums& sums) {
     const TreeBodies& b = *of_.bodies;
-    const std::int64_t stride = double_.n + gather_slack;
+    const std::int64_t stride = double_.n_sources + gather_slack;
     double* const s = rows_of(doubles_, 5, stride);
-    const auto n_runs = static_cast<std::int64_t>(double_.runs.size());
-    direct_kernels().gather64(gather_from(), double_.runs.data(), n_runs, s, stride);
-    direct_kernels().add64(of_.law, sources_in(s, stride, double_.n),
+    direct_kernels().gather64(gather_from(), double_.data(), double_.n_runs(), s, stride);
+    direct_kernels().add64(of_.law, sources_in(s, stride, double_.n_sources),
                            {b.x[0] + first, b.x[1] + first, b.x[2] + first,
                             b.softening != nullptr ? b.softening + first : nullptr, sums.p, sums.ax,
                             sums.ay, sums.az, n});
@@ -131,21 +118,19 @@ void NearSum::add32(std::int32_t first, std::int32_t n, const Sums& sums) {
     GatherFrom from = gather_from();
     for (int d = 0; d < 3; ++d) from.centre[d] = of_.cells->x(d, cell_);
     from.scale = 1 / unit_;
-    from.mass_scale = 1 / mass_unit_;
-    const std::int64_t stride = float_.n + gather_slack, target_stride = n + gather_slack;
+    const std::int64_t stride = float_.n_sources + gather_slack, target_stride = n + gather_slack;
     float* const s = rows_of(floats_, 5, stride);
     float* const t = rows_of(targets_, 9, target_stride);
-    const auto n_runs = static_cast<std::int64_t>(float_.runs.size());
-    direct_kernels().gather32(from, float_.runs.data(), n_runs, s, stride);
+    direct_kernels().gather32(from, float_.data(), float_.n_runs(), s, stride);
     const SourceRun targets{first, n, 0};
     direct_kernels().gather32(from, &targets, 1, t, target_stride);
     float* const out = t + 5 * target_stride;
     std::fill_n(out, 4 * target_stride, 0.0F);
     direct_kernels().add32(
-        of_.law, sources_in(s, stride, float_.n),
+        of_.law, sources_in(s, stride, float_.n_sources),
         {t, t + target_stride, t + 2 * target_stride, t + 4 * target_stride, out,
          out + target_stride, out + 2 * target_stride, out + 3 * target_stride, n});
-    const double potential = mass_unit_ / unit_, force = potential / unit_;
+    const double potential = 1 / unit_, force = potential / unit_;
     for (std::int32_t k = 0; k < n; ++k) {
         sums.p[k] += out[k] * potential;
         sums.ax[k] += out[k + target_stride] * force;
