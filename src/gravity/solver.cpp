@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <connectivity/base/parallel.hpp>
 
@@ -22,6 +23,16 @@ constexpr int most_repeats = 4;
 View<double> spare(const View<double>& old, const char* label, Offset n) {
     if (n <= static_cast<Offset>(old.size()) && old.use_count() <= 1) return old;
     return allocate<double>(label, n);
+}
+
+/// Arrays as long as the particles: the frame's, sums, results. What cells need is checked later.
+void check_budget(Offset n, const GravityOptions& options) {
+    const Offset doubles = 5 + 4 + 4 + (options.error_bound ? 2 : 0);
+    const Offset bytes = std::max<Offset>(n, 0) * doubles * static_cast<Offset>(sizeof(double));
+    if (n > max_slots || options.budget.allows(bytes)) return;  // too many is another error
+    throw Error(Status::budget, "gravity of " + std::to_string(n) + " particles needs " +
+                                    human_bytes(bytes) + " and more, the budget allows " +
+                                    human_bytes(options.budget.allowed()));
 }
 
 /// A solution with these is good to a per cent: lengths of forces for Acceptance::acceleration.
@@ -137,7 +148,7 @@ TreeWork Solver::sum_until_reached(const GravityOptions& options, TreeSettings& 
 
 bool Solver::solve_by_cells(const GravityOptions& options, GravityInfo& info) {
     TreeSettings settings = first_settings(options);
-    tree_.plant(frame_, options.leaf.value_or(usual_leaf(settings)), images_);
+    tree_.plant(frame_, options.leaf.value_or(usual_leaf(settings)), images_, options.budget);
     sums_.resize(frame_.n);
     find_weakest(options, settings);
     const Stopwatch watch;
@@ -232,6 +243,7 @@ void Solver::solve(const GravityParticles& particles, const GravityOptions& opti
                    Solution& solution) {
     report_ = Report();
     tree_.report() = Report();
+    check_budget(particles.n, options);
     const Stopwatch watch;
     make_frame(particles, options, frame_);
     report_.entry("frame").ms = watch.ms();

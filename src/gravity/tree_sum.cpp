@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <connectivity/base/parallel.hpp>
 
@@ -33,13 +34,15 @@ PairLaw law_of(const TreeSettings& settings, const TreeBodies& bodies) {
 
 }  // namespace
 
-void TreeSum::plant(const Frame& frame, std::int32_t leaf, const Images& images) {
+void TreeSum::plant(const Frame& frame, std::int32_t leaf, const Images& images,
+                    const Budget& budget) {
     TreeInput input;
     input.sources = ParticleArray::separate(frame.x.data(), frame.n);
     TreeOptions options;
     options.max_particles_in_box = leaf;
     options.coincident = Coincident::leaf;
     options.hulls = Hulls::never;
+    options.budget = budget_ = budget;
     Stopwatch watch;
     tree_.build(input, options);
     const TreeView& view = tree_.view();
@@ -83,7 +86,20 @@ void TreeSum::set_weakest(const double* accelerations) {
     has_weakest_ = true;
 }
 
+/// Lists are not known before they are made, and small beside the expansions.
+void TreeSum::check_budget(const TreeSettings& settings) const {
+    const Offset n_expansions = settings.form == FarForm::cell_to_cell ? 2 : 1;
+    const Offset bytes = n_expansions * cells_.n * expansion_stride(settings.order) *
+                         static_cast<Offset>(sizeof(double));
+    if (budget_.allows(bytes)) return;
+    throw Error(Status::budget, "gravity: expansions of order " + std::to_string(settings.order) +
+                                    " in " + std::to_string(cells_.n) + " cells need " +
+                                    human_bytes(bytes) + ", the budget allows " +
+                                    human_bytes(budget_.allowed()));
+}
+
 void TreeSum::prepare(const TreeSettings& settings) {
+    check_budget(settings);
     const Stopwatch watch;
     const int degree = far_degree(settings.form, settings.order);
     if (cells_.degree != degree) make_rho(bodies_, degree, cells_);

@@ -47,8 +47,9 @@ struct TreeWork {
 
 class TreeSum {
 public:
-    /// Tree and cells of these particles. Throws as BoxTree::build does.
-    void plant(const Frame& frame, std::int32_t leaf, const Images& images);
+    /// Tree and cells of these particles. The budget holds for all that is summed later, too.
+    /// Throws as BoxTree::build does.
+    void plant(const Frame& frame, std::int32_t leaf, const Images& images, const Budget& budget = {});
     /// Smallest |a| in each cell, from lengths in the host's order; for Acceptance::acceleration.
     void set_weakest(const double* accelerations);
 
@@ -82,6 +83,7 @@ private:
     bool is_unit(CellId c, FarForm form) const;
     void take_units(FarForm form);
     void take_particles(FarForm form, const std::vector<std::int32_t>& particles);
+    void check_budget(const TreeSettings& settings) const;
     void prepare(const TreeSettings& settings);
     void make_lists(const TreeSettings& settings);
     void sum_items(const TreeSettings& settings, const Sums& sums);
@@ -90,6 +92,7 @@ private:
     TreeWork measure_work(FarForm form) const;
 
     BoxTree tree_;
+    Budget budget_;
     TreeBodies bodies_;
     View<double> mass_, softening_, weakest_;
     bool has_weakest_ = false;
