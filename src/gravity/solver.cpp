@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <connectivity/base/parallel.hpp>
 
@@ -211,6 +212,8 @@ void Solver::hand_over(const GravityOptions& options, const GravityInfo& info, S
     const Sums sums = sums_.sums();
     const std::int32_t* const ids = user_ids_;
     const double* const bounds = bounds_.data();
+    report_.entry("hand over").ms = 0;
+    Report report = report_;  // a copy may fail, so it is made before anything is changed
     Kokkos::parallel_for("gravity/hand_over", Kokkos::RangePolicy<HostExec>(0, n),
                          [=](const Offset k) {
                              const Offset i = ids == nullptr ? k : ids[k];
@@ -227,8 +230,8 @@ void Solver::hand_over(const GravityOptions& options, const GravityInfo& info, S
     solution.bound = bound;
     solution.has_bound = has_bound;
     solution.info = info;
-    report_.entry("hand over").ms = watch.ms();
-    solution.report = report_;
+    report.entry("hand over").ms = watch.ms();
+    solution.report = std::move(report);
 }
 
 Offset Solver::bytes() const {
