@@ -96,11 +96,12 @@ std::string describe_sums(const Gravity& gravity, const GravityInput& input,
 }
 
 std::string describe_gravity_units(double constant, const Units& units) {
-    std::string text = fmt::format("G = {:g}: accelerations in G ", constant);
-    if (!units.known())
-        return text + "mass / length^2, potentials in G mass / length, in the units of the input";
-    const std::string mass = mass_unit(units), length = length_unit(units);
-    return text + fmt::format("{0} ({1})^-2, potentials in G {0} ({1})^-1", mass, length);
+    const std::string mass = units.known() ? mass_unit(units) : "the input's mass unit",
+                      length = units.known() ? "(" + length_unit(units) + ")" : "length unit";
+    return fmt::format(
+        "G = {0:g}: accelerations are G m/r^2, m/r^2 in {1} {2}^-2; potentials -G m/r, m/r in {1} "
+        "{2}^-1",
+        constant, mass, length);
 }
 
 }  // namespace connectivity::program

@@ -18,7 +18,7 @@ std::string describe_solution(const GravityInfo& info, const GravityOptions& opt
 std::string describe_sums(const Gravity& gravity, const GravityInput& input,
                           const GravityOptions& options);
 
-/// "G = 1: accelerations in 1e10 Msun/h (ckpc/h)^-2, ..."
+/// "G = 1: accelerations are G m/r^2, m/r^2 in 1e10 Msun/h (ckpc/h)^-2; ..."
 std::string describe_gravity_units(double constant, const Units& units);
 
 }  // namespace connectivity::program
