@@ -15,7 +15,7 @@ constexpr double least_epsilon = 1e-15, most_epsilon = 1e4, most_angle = 0.95;
 }  // namespace
 
 std::int32_t usual_leaf(const TreeSettings& settings) {
-    return settings.form == FarForm::cell_to_particles ? 32 : 24;
+    return settings.form == FarForm::cell_to_particles ? 32 : settings.float32 ? 48 : 24;
 }
 
 int usual_order(FarForm form, double tolerance) {
@@ -49,7 +49,7 @@ Offset direct_below(double tolerance) {
 double cost_of(const TreeSettings& settings, const TreeWork& work, Offset n) {
     const double p = settings.order + 1, coefficients = p * p;
     // Short lists and copies of sources make near pairs dearer than those of a direct sum.
-    const double near = work.near_pairs * (settings.float32 ? 0.8 : 1.6);
+    const double near = work.near_pairs * (settings.float32 ? 1.1 : 1.6);
     if (settings.form == FarForm::cell_to_particles)
         return near + work.far_pairs * (settings.order <= 2 ? 3 : 0.8 * coefficients);
     return near + work.far_pairs * (10 + 0.13 * coefficients * p) +

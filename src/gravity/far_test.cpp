@@ -32,6 +32,7 @@ void FarTest::set(const Cells& cells, const FarChoice& choice) {
                     r,
                     particles && !by_angle ? r : open * r,
                     open * (by_angle ? r : cells.rho(c)),
+                    cells.first(c),
                     cells.count(c),
                     cells.first_child(c),
                     cells.n_children(c)};
@@ -47,14 +48,16 @@ bool FarTest::is_accurate(CellId a, CellId b, double d2) const {
     return d2 > back * back;
 }
 
+/// A light cell may be so near that the terms beyond the first neglected ones matter: they fall no
+/// faster than t = (r_A + r_B) / R, and sum to at most 1 / (1 - t)² of it.
 bool FarTest::is_weak(CellId a, CellId b, double d2) const {
-    const double r = std::sqrt(d2);
-    double ratio = c_.form == FarForm::cell_to_particles ? k_->rho(b) / (r - k_->radius(a))
-                                                         : (k_->radius(a) + k_->rho(b)) / r;
-    double power = 1;
+    const bool particles = c_.form == FarForm::cell_to_particles;
+    const double own = k_->radius(a), r = particles ? std::sqrt(d2) - own : std::sqrt(d2);
+    const double near = particles ? 0 : own, tail = 1 - (near + k_->radius(b)) / r;
+    double ratio = (near + k_->rho(b)) / r, power = 1;
     for (int q = degree_; q > 0; q >>= 1, ratio *= ratio)
         if ((q & 1) != 0) power *= ratio;
-    return first_term_ * power * k_->mass(b) < c_.weakest[a] * d2;
+    return first_term_ * power * k_->mass(b) < c_.weakest[a] * r * r * tail * tail;
 }
 
 /// Plummer's force differs from Newton's by 3/2 e²/r²; SPH-EXA's is Newton's outside.

@@ -40,7 +40,8 @@ struct alignas(64) WalkCell {
     double x[3];
     double radius;
     double as_target, as_source;  ///< R must be above the sum of the target's and the source's
-    std::int32_t count, first_child, n_children;
+    std::int32_t first, count;    ///< particles
+    std::int32_t first_child, n_children;
 };
 
 class FarTest {

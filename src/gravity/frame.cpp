@@ -170,8 +170,9 @@ void make_frame(const GravityParticles& particles, const GravityOptions& options
                                           " wide and their "
                                           "masses sum to " +
                                           number(found.mass) + ", must be finite");
-    // Where all lie close together and far from the origin, the origin decides.
-    frame.length = std::max(unit_of(extent), unit_of(found.largest) * 0x1p-400);
+    // Where all lie close together, how far from the origin and how softened decides.
+    frame.length = std::max({unit_of(extent), unit_of(found.largest) * 0x1p-400,
+                             found.softening > 0 ? unit_of(found.softening) * 0x1p-40 : 0});
     frame.mass_unit = unit_of(found.mass);
     frame.mixed_signs = found.negative;
     frame.max_softening = found.softening / frame.length;

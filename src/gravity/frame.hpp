@@ -3,8 +3,9 @@
 /// The frame in which forces are summed: the host's particles as separate doubles, scaled by powers
 /// of two, so that scaling is exact and no power of a distance leaves the range of a double.
 ///
-/// Invariants: the widest extent (of a periodic box: the longest side) is in (0.5, 1], or 0; the
-/// sum of |m| is in (0.5, 1], or 0; all values are finite. Cost: two passes over the particles.
+/// Invariants: the widest extent (of a periodic box: the longest side) is in (0.5, 1], or less
+/// where softening lengths are 2^40 times that, or 0; the sum of |m| is in (0.5, 1], or 0; all
+/// values are finite. Cost: two passes over the particles.
 
 #include <array>
 

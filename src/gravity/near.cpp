@@ -56,8 +56,8 @@ void NearSum::collect(CellId cell) {
     const Slot* const values = of_.lists->near().value_data();
     for (CellId a = cell;; a = cells.parent(a)) {
         for (Offset e = offsets[a]; e < offsets[a + 1]; ++e) {
-            const CellId b = Source::cell(values[e]);
-            const SourceRun run{cells.first(b), cells.count(b), Source::image(values[e])};
+            const WalkCell& b = (*of_.walk)[Source::cell(values[e])];
+            const SourceRun run{b.first, b.count, Source::image(values[e])};
             Runs* const runs = of_.float32 && is_apart(b, run.image, gap) ? &float_ : &double_;
             runs->add(run);
         }
@@ -66,15 +66,15 @@ void NearSum::collect(CellId cell) {
 }
 
 /// Whether all particles of `source` are farther than `gap` from the centre of the targets' cell.
-bool NearSum::is_apart(CellId source, int image, double gap) const {
-    const Cells& cells = *of_.cells;
+bool NearSum::is_apart(const WalkCell& source, int image, double gap) const {
+    const WalkCell& target = (*of_.walk)[cell_];
     const double* const shift = of_.images->shift.data() + 3 * image;
     double distance2 = 0;
     for (int d = 0; d < 3; ++d) {
-        const double between = cells.x(d, source) + shift[d] - cells.x(d, cell_);
+        const double between = source.x[d] + shift[d] - target.x[d];
         distance2 += between * between;
     }
-    const double least = 1.000001 * (cells.radius(source) + gap);  // more than roundings
+    const double least = 1.000001 * (source.radius + gap);  // more than roundings
     return distance2 > least * least;
 }
 

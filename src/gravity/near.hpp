@@ -6,8 +6,7 @@
 /// their order, so that the bits do not depend on threads. With float32 sources near the targets'
 /// cell are summed in double, the others in float relative to the cell's centre: a distance loses
 /// no more than a few units in the last place of a float, at any scale, and only masses below 1e-38
-/// of the whole are lost. Cost: that of the pairs,
-/// and 1.5 ns a source.
+/// of the whole are lost. Cost: that of the pairs, and 1.5 ns a source.
 
 #include <vector>
 
@@ -26,6 +25,7 @@ struct Sums {
 struct NearProblem {
     const TreeBodies* bodies = nullptr;
     const Cells* cells = nullptr;
+    const FarTest* walk = nullptr;  ///< with what it keeps of each cell
     const CellLists* lists = nullptr;
     const Images* images = nullptr;
     PairLaw law = PairLaw::newton;
@@ -52,7 +52,7 @@ private:
         const SourceRun* data() const { return runs.data(); }
         std::int64_t n_runs() const { return static_cast<std::int64_t>(runs.size()); }
     };
-    bool is_apart(CellId source, int image, double gap) const;
+    bool is_apart(const WalkCell& source, int image, double gap) const;
     void add64(std::int32_t first, std::int32_t n, const Sums& sums);
     void add32(std::int32_t first, std::int32_t n, const Sums& sums);
     GatherFrom gather_from() const;

@@ -110,8 +110,8 @@ TreeSettings Solver::first_settings(const GravityOptions& o) const {
     s.softening = o.softening;
     s.softening_error = 0.3 * o.tolerance;
     s.float32 =
-        o.near == NearPrecision::float32 ||
-        (o.near == NearPrecision::automatic && !o.symmetric && o.tolerance >= float32_tolerance);
+        o.near == NearPrecision::float32 || (o.near == NearPrecision::automatic && !o.symmetric &&
+                                             !o.error_bound && o.tolerance >= float32_tolerance);
     s.epsilon = o.epsilon.value_or(usual_epsilon(s, o.tolerance));
     return s;
 }
@@ -184,19 +184,20 @@ bool Solver::solve_by_cells(const GravityOptions& options, GravityInfo& info) {
     return true;
 }
 
-/// Sums are finite; in the host's units they may not be.
+/// Sums of finite particles are finite; in the host's units they may not be.
 void Solver::check_finite(double force, double potential) const {
-    double largest_force = 0, largest_potential = 0;
     const Sums sums = sums_.sums();
-    for (Offset k = 0; k < frame_.n; ++k) {
-        largest_potential = std::max(largest_potential, std::abs(sums.p[k]));
-        for (const double* const a : {sums.ax, sums.ay, sums.az})
-            largest_force = std::max(largest_force, std::abs(a[k]));
-    }
-    if (!std::isfinite(largest_force * force) || !std::isfinite(largest_potential * potential))
-        throw Error(Status::nonfinite, "forces overflow: the largest is " + number(largest_force) +
-                                           " times " + number(force) +
-                                           " in the units of the particles, must be below 1.8e308");
+    const auto check = [&](const double* values, double unit, const char* what) {
+        for (Offset k = 0; k < frame_.n; ++k) {
+            if (std::isfinite(values[k] * unit)) continue;
+            const Offset i = user_ids_ == nullptr ? k : user_ids_[k];
+            throw Error(Status::nonfinite, std::string(what) + " of particle " + std::to_string(i) +
+                                               " is " + number(values[k]) + " times " +
+                                               number(unit) + ", must be below 1.8e308");
+        }
+    };
+    check(sums.p, potential, "the potential");
+    for (const double* const a : {sums.ax, sums.ay, sums.az}) check(a, force, "the acceleration");
 }
 
 void Solver::hand_over(const GravityOptions& options, const GravityInfo& info, Solution& solution) {

@@ -3,8 +3,8 @@
 /// Gravity by cells: tree walk or fast multipole method, for all particles or a sample of them,
 /// with settings that somebody else chose.
 ///
-/// Invariants: a particle's sums are the same, bit for bit, whether all are asked for or a sample.
-/// Nothing is allocated before `plant`; arrays are kept for the next time.
+/// Invariants: a particle's sums are the same but for rounding whether all are asked for or a
+/// sample. Nothing is allocated before `plant`; arrays are kept for the next time.
 
 #include <connectivity/base/report.hpp>
 #include <connectivity/tree/box_tree.hpp>
@@ -49,7 +49,8 @@ class TreeSum {
 public:
     /// Tree and cells of these particles. The budget holds for all that is summed later, too.
     /// Throws as BoxTree::build does.
-    void plant(const Frame& frame, std::int32_t leaf, const Images& images, const Budget& budget = {});
+    void plant(const Frame& frame, std::int32_t leaf, const Images& images,
+               const Budget& budget = {});
     /// Smallest |a| in each cell, from lengths in the host's order; for Acceptance::acceleration.
     void set_weakest(const double* accelerations);
 

@@ -50,8 +50,9 @@ public:
     Offset n() const;
     ConstView<double> acceleration() const;  ///< [n][3], the host's order
     ConstView<double> potential() const;     ///< [n]; per unit mass, negative near masses
-    /// [n]: no error of |a| is above it, by the sum over all expansions that reached the particle
-    /// of what their remainders are at most; empty unless asked for.
+    /// [n]: no error of |a| is above it but for rounding, by the sum over all expansions that
+    /// reached the particle of what their remainders are at most; empty unless asked for. Near sums
+    /// in float32, which are taken then only by hand, round to 1e-6 of the sum of their terms.
     ConstView<double> error_bound() const;
 
     const GravityInfo& info() const;

@@ -29,11 +29,12 @@ enum class GravityMethod {
 ///
 /// Every criterion also asks for r_A + r_B < R, so that no particle accepts a cell it is in.
 enum class Acceptance {
-    /// E < epsilon. The error of a particle is then below epsilon * sum m/r², whatever the scene.
+    /// E < epsilon. Errors are a small share of epsilon * sum m/r², whatever the scene, unless
+    /// epsilon is so large that cells are accepted where they touch.
     field,
-    /// E M_B / R² < epsilon * the smallest |a| in A, from `previous_acceleration` or, without one,
-    /// from a solution with a quadrupole walk. Fewer interactions for the same median, a longer
-    /// tail.
+    /// E M_B / R² < epsilon * the smallest |a| in A, where E is divided by (1 - t)² for the
+    /// terms that follow, t = (r_A + r_B) / R; |a| is from `previous_acceleration` or, without
+    /// it, from a rough solution. Fewer interactions for the same median, a longer tail.
     acceleration,
     /// r_A + r_B < epsilon R: an opening angle, with the offset of the centre of mass in r_B.
     geometric
@@ -43,9 +44,8 @@ enum class Acceptance {
 enum class Softening {
     /// a = m r / (r² + e²)^(3/2), potential -m / sqrt(r² + e²), e = the larger of the two lengths
     plummer,
-    /// SPH-EXA: a = m r / max(r, h_i + h_j)³, potential -m r² / max(r, h_i + h_j)³, which is not
-    /// the
-    /// integral of the force inside h_i + h_j
+    /// SPH-EXA: a = m r / max(r, h_i + h_j)³, potential -m r² / max(r, h_i + h_j)³, which is
+    /// not the integral of the force inside h_i + h_j
     sph_exa
 };
 
