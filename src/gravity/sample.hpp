@@ -8,8 +8,6 @@
 
 #include <connectivity/gravity/gravity.hpp>
 
-#include <algorithm>
-
 #include "direct.hpp"
 #include "lattice_field.hpp"
 #include "tree_sum.hpp"
@@ -20,13 +18,12 @@ namespace connectivity::detail {
 struct SampleErrors {
     GravityErrors acceleration, field, potential;
 
-    double tail = 0;  ///< of acceleration: the largest, or the largest but one of many particles
-
-    /// The 99th percentile as it is to be feared. That of a sample is a rank among its few largest.
-    /// Were more than one particle in a hundred above a bound, all of a sample of 300 would be
-    /// below it in one case of twenty, all but one in one of five, whatever the distribution. One
-    /// of many may be far off because its force cancels.
-    double feared() const { return std::max(acceleration.p99, 0.35 * tail); }
+    /// The 99th percentile of acceleration as it is to be feared. That of a sample is a rank among
+    /// its few largest: were more than one particle in a hundred above a bound, all of a sample of
+    /// 300 would be below it in one case of twenty, all but one in one of five, whatever the
+    /// distribution. So the largest counts, too, at 0.7; of many particles one may be far off
+    /// because its force cancels, and the largest but one counts, at 0.35.
+    double feared = 0;
 };
 
 /// Separate arrays p, ax, ay, az of one length.
