@@ -26,8 +26,9 @@ int usual_order(FarForm form, double tolerance) {
         return std::clamp(digits < 4.5 ? 2 : order, 2, max_gravity_order);
     }
     const int order = static_cast<int>(std::lround(3.2 + 1.65 * digits));
-    // Above 12 the even orders of M2L are the fast ones.
-    return std::clamp(order <= 12 ? order : order / 2 * 2, 3, max_gravity_order);
+    // Of the orders above 12 those of M2L that are fast are 14 and 16.
+    const int fast = order <= 12 ? order : digits < 10 ? std::min(order / 2 * 2, 16) : order;
+    return std::clamp(fast, 3, max_gravity_order);
 }
 
 double usual_epsilon(const TreeSettings& settings, double tolerance) {
@@ -106,7 +107,7 @@ TreeWork fit_epsilon(TreeSum& tree, Sample& sample, double tolerance, TreeSettin
     for (int k = 0;; ++k) {
         const TreeWork work = tree.sum_some(settings, sample.places(), trial.sums());
         if (k == 0) tree.measure_scales(sample.field(), sample.potential());
-        const double error = sample.errors(trial).feared() / tolerance;
+        const double error = sample.errors(trial).feared / tolerance;
         if (error >= too_low && error <= too_high) return work;
         bracket.add(settings.epsilon, error);
         const double next = k + 1 < most_trials ? bracket.next() : bracket.best();

@@ -139,7 +139,7 @@ TreeWork Solver::sum_until_reached(const GravityOptions& options, TreeSettings& 
         info.acceleration = errors.acceleration;
         info.field = errors.field;
         info.potential = errors.potential;
-        const double excess = errors.feared() / options.tolerance;
+        const double excess = errors.feared / options.tolerance;
         info.reached = errors.acceleration.p99 <= options.tolerance;
         if (excess <= safe_share || options.epsilon || k + 1 == most_repeats) return work;
         settings.epsilon *= 0.3 / excess;
