@@ -137,6 +137,21 @@ ListScene random_scene(std::uint64_t seed, FromSepSmallerCrit crit) {
     return s;
 }
 
+TEST(SourceRuns, join_where_sources_and_images_do) {
+    SourceRuns runs;
+    for (const detail::SourceRun& run :
+         {detail::SourceRun{0, 5, 13}, {5, 0, 4}, {5, 2, 13}, {7, 3, 14}, {10, 1, 14}, {12, 1, 14}})
+        runs.add(run);
+    ASSERT_EQ(runs.runs.size(), 3u);
+    EXPECT_EQ(runs.n, 12);
+    const int wanted[3][3] = {{0, 7, 13}, {7, 4, 14}, {12, 1, 14}};
+    for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(runs.runs[k].first, wanted[k][0]);
+        EXPECT_EQ(runs.runs[k].n, wanted[k][1]);
+        EXPECT_EQ(runs.runs[k].image, wanted[k][2]);
+    }
+}
+
 class ListCount : public ::testing::TestWithParam<FromSepSmallerCrit> {};
 
 TEST_P(ListCount, each_target_meets_each_source_exactly_once) {
