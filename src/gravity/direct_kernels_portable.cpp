@@ -25,7 +25,12 @@ struct Portable {
     }
     static void store(T* p, F a) { std::memcpy(p, &a, sizeof a); }
     static int first(int n) { return n; }
-    static F load_some(const T* p, int n) { return n == lanes ? load(p) : F{p[0]}; }
+    static F load_some(const T* p, int n) {
+        if (n == lanes) return load(p);
+        F a = {};
+        a[0] = p[0];
+        return a;
+    }
     static void store(float* p, F a) requires(lanes == 2) {
         p[0] = static_cast<float>(a[0]), p[1] = static_cast<float>(a[1]);
     }
