@@ -99,22 +99,46 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// Errors that float32 makes do not fall with epsilon. false: they do not fall; nothing is fitted.
+bool fit_at_precision(TreeSum& tree, Sample& sample, double tolerance, TreeSettings& settings,
+                      SumArrays& trial, TreeWork& work) {
+    const bool angle = settings.acceptance == Acceptance::geometric;
+    const bool may_give_up = settings.float32 && !settings.float32_by_hand;
+    Bracket bracket(least_epsilon, angle ? most_angle : most_epsilon, angle ? settings.order : 1);
+    double last_epsilon = 0, last_error = 0;
+    for (int k = 0;; ++k) {
+        work = tree.sum_some(settings, sample.places(), trial.sums());
+        if (k == 0) tree.measure_scales(sample.field(), sample.potential());
+        const double error = sample.errors(trial).feared / tolerance;
+        if (error >= too_low && error <= too_high) return true;
+        if (may_give_up && error > too_high && settings.epsilon < 0.7 * last_epsilon &&
+            error > 0.7 * last_error)
+            return false;
+        bracket.add(last_epsilon = settings.epsilon, last_error = error);
+        const double next = k + 1 < most_trials ? bracket.next() : bracket.best();
+        if (next == settings.epsilon) return true;
+        settings.epsilon = next;
+        if (k + 1 == most_trials) {
+            work = tree.sum_some(settings, sample.places(), trial.sums());
+            return true;
+        }
+    }
+}
+
+}  // namespace
+
 TreeWork fit_epsilon(TreeSum& tree, Sample& sample, double tolerance, TreeSettings& settings,
                      SumArrays& trial) {
     trial.resize(sample.n());
-    const bool angle = settings.acceptance == Acceptance::geometric;
-    Bracket bracket(least_epsilon, angle ? most_angle : most_epsilon, angle ? settings.order : 1);
-    for (int k = 0;; ++k) {
-        const TreeWork work = tree.sum_some(settings, sample.places(), trial.sums());
-        if (k == 0) tree.measure_scales(sample.field(), sample.potential());
-        const double error = sample.errors(trial).feared / tolerance;
-        if (error >= too_low && error <= too_high) return work;
-        bracket.add(settings.epsilon, error);
-        const double next = k + 1 < most_trials ? bracket.next() : bracket.best();
-        if (next == settings.epsilon) return work;
-        settings.epsilon = next;
-        if (k + 1 == most_trials) return tree.sum_some(settings, sample.places(), trial.sums());
+    TreeWork work;
+    if (!fit_at_precision(tree, sample, tolerance, settings, trial, work)) {
+        settings.float32 = false;
+        settings.epsilon = usual_epsilon(settings, tolerance);
+        fit_at_precision(tree, sample, tolerance, settings, trial, work);
     }
+    return work;
 }
 
 }  // namespace connectivity::detail

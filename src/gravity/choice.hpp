@@ -22,7 +22,8 @@ double cost_of(const TreeSettings& settings, const TreeWork& work, Offset n);
 
 /// Changes settings.epsilon until the sample's p99 is near the tolerance's third; far enough below
 /// to be below it for all particles, too, and not so far that time is wasted. `trial` is scratch.
-/// Returns the work that the last trial promises.
+/// Where forces cancel, float32 may not reach the tolerance: then settings.float32 is
+/// changed, too, unless that was asked for. Returns the work that the last trial promises.
 TreeWork fit_epsilon(TreeSum& tree, Sample& sample, double tolerance, TreeSettings& settings,
                      SumArrays& trial);
 

@@ -25,16 +25,16 @@ public:
         const double t = (own + k_.radius(b)) / r, s = (own + k_.rho(b)) / r;
         const int q = far_degree(c_.form, c_.order);
         const double remainder = std::pow(s, q) * ((q + 1) / (1 - t) + t / ((1 - t) * (1 - t)));
-        return k_.mass(b) / (r * r) *
-               (remainder + softening(a, b, far - k_.radius(a) - k_.radius(b)));
+        return k_.mass(b) *
+               (remainder / (r * r) + softening(a, b, far - k_.radius(a) - k_.radius(b)));
     }
 
 private:
-    /// Plummer's force against Newton's, at the least distance r of two particles.
+    /// Plummer's force against Newton's of a unit mass at the least distance r of two particles.
     double softening(CellId a, CellId b, double r) const {
         if (!k_.softened || c_.softening == Softening::sph_exa) return 0;
         const double e = std::max(k_.max_softening(a), k_.max_softening(b));
-        return 1.5 * e * e / (r * r);
+        return 1.5 * e * e / (r * r * r * r);
     }
 
     const Cells& k_;

@@ -26,7 +26,6 @@ struct Survey {
     std::array<double, 3> lo, hi;
     double largest = 0;  ///< |coordinate|
     double mass = 0, softening = 0;
-    bool negative = false;
     Offset bad = max_slots + 1;
 
     Survey() {
@@ -41,7 +40,6 @@ struct Survey {
         largest = std::max(largest, other.largest);
         mass += other.mass;
         softening = std::max(softening, other.softening);
-        negative = negative || other.negative;
         bad = std::min(bad, other.bad);
     }
 };
@@ -82,7 +80,6 @@ public:
             }
             s.mass += std::abs(mass(i));
             s.softening = std::max(s.softening, softening(i));
-            s.negative = s.negative || mass(i) < 0;
         }
         return s;
     }
@@ -174,7 +171,6 @@ void make_frame(const GravityParticles& particles, const GravityOptions& options
     frame.length = std::max({unit_of(extent), unit_of(found.largest) * 0x1p-400,
                              found.softening > 0 ? unit_of(found.softening) * 0x1p-40 : 0});
     frame.mass_unit = unit_of(found.mass);
-    frame.mixed_signs = found.negative;
     frame.max_softening = found.softening / frame.length;
     for (int d = 0; d < 3; ++d) frame.box[d] = options.domain.length(d) / frame.length;
     ensure_capacity(frame.x, "gravity/positions", 3 * n);

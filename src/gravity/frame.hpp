@@ -21,7 +21,6 @@ struct Frame {
     View<double> softening;    ///< [n]; empty where all are 0
     double length = 1;         ///< the host's length of one unit, a power of two
     double mass_unit = 1;      ///< the host's mass of one unit, a power of two
-    bool mixed_signs = false;  ///< there are masses < 0
     double max_softening = 0;  ///< in units of the frame
     bool periodic = false;
     std::array<double, 3> box{};  ///< sides of the periodic box, whose low corner is at 0

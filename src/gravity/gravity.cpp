@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <connectivity/gravity/gravity.hpp>
 
-#include <cmath>
-#include <new>
-#include <string>
 #include <utility>
+
+#include <connectivity/base/runtime.hpp>
 
 #include "solver.hpp"
 
@@ -24,12 +23,7 @@ Gravity& Gravity::operator=(Gravity&&) noexcept = default;
 
 void Gravity::solve(const GravityParticles& particles, const GravityOptions& options) {
     check_options(particles, options);
-    try {
-        impl_->solver.solve(particles, options, impl_->now);
-    } catch (const std::bad_alloc&) {
-        throw Error(Status::memory,
-                    "gravity of " + std::to_string(particles.n) + " particles ran out of memory");
-    }
+    run_kernels("gravity", [&] { impl_->solver.solve(particles, options, impl_->now); });
 }
 
 Offset Gravity::n() const { return impl_->now.n; }

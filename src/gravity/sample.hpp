@@ -64,6 +64,8 @@ public:
     SampleErrors errors_among(const SumArrays& all);
 
 private:
+    template <class Total, class Difference>
+    double tail(const Total& total, const Difference& difference);
     template <class Place>
     SampleErrors compare(const SumArrays& sums, const Place& place);
 

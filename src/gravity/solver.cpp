@@ -20,6 +20,19 @@ constexpr double lattice_share = 1e-2;
 constexpr double safe_share = 0.45;
 constexpr int most_repeats = 4;
 
+/// Plummer's law softens the near images of the box, the others are Newton's; so the forces depend
+/// on where the box ends by a share of about 30 (e / L)², measured.
+void check_softening(const Frame& frame, const GravityOptions& options) {
+    if (!frame.periodic || options.softening != Softening::plummer) return;
+    const double side = *std::min_element(frame.box.begin(), frame.box.end());
+    const double longest = side * std::sqrt(options.tolerance / 30);
+    if (frame.max_softening <= longest) return;
+    throw Error(Status::argument,
+                "the longest softening is " + number(frame.max_softening * frame.length) +
+                    ", must be at most " + number(longest * frame.length) +
+                    " in this periodic box, for a tolerance of " + number(options.tolerance));
+}
+
 /// Storage for n values: the old one if it is large enough and nobody else holds it.
 View<double> spare(const View<double>& old, const char* label, Offset n) {
     if (n <= static_cast<Offset>(old.size()) && old.use_count() <= 1) return old;
@@ -37,10 +50,12 @@ void check_budget(Offset n, const GravityOptions& options) {
 }
 
 /// A solution with these is good to a per cent: lengths of forces for Acceptance::acceleration.
-TreeSettings rough_settings() {
+TreeSettings rough_settings(Softening softening) {
     TreeSettings settings;
     settings.order = 3;
     settings.epsilon = 0.3;
+    settings.softening = softening;
+    settings.softening_error = 3e-3;
     return settings;
 }
 
@@ -109,9 +124,9 @@ TreeSettings Solver::first_settings(const GravityOptions& o) const {
     s.symmetric = o.symmetric;
     s.softening = o.softening;
     s.softening_error = 0.3 * o.tolerance;
-    s.float32 =
-        o.near == NearPrecision::float32 || (o.near == NearPrecision::automatic && !o.symmetric &&
-                                             !o.error_bound && o.tolerance >= float32_tolerance);
+    s.float32_by_hand = o.near == NearPrecision::float32;
+    s.float32 = s.float32_by_hand || (o.near == NearPrecision::automatic && !o.symmetric &&
+                                      !o.error_bound && o.tolerance >= float32_tolerance);
     s.epsilon = o.epsilon.value_or(usual_epsilon(s, o.tolerance));
     return s;
 }
@@ -121,10 +136,14 @@ void Solver::find_weakest(const GravityOptions& options, const TreeSettings& set
     const Offset n = frame_.n;
     scratch_.resize(static_cast<std::size_t>(n));
     if (options.previous_acceleration.size() > 0) {
-        const double unit = options.constant * frame_.mass_unit / frame_.length / frame_.length;
-        for (Offset i = 0; i < n; ++i) scratch_[i] = options.previous_acceleration(i) / unit;
+        const long double unit = static_cast<long double>(options.constant) * frame_.mass_unit /
+                                 frame_.length / frame_.length;
+        for (Offset i = 0; i < n; ++i)
+            scratch_[i] = static_cast<double>(options.previous_acceleration(i) / unit);
     } else {
-        tree_.sum_all(rough_settings(), sums_.sums());
+        tree_.sum_all(rough_settings(options.softening), sums_.sums());
+        user_ids_ = tree_.user_ids();
+        if (lattice_ != nullptr) add_lattice();
         for (Offset k = 0; k < n; ++k) scratch_[tree_.user_ids()[k]] = sums_.acceleration(k);
     }
     tree_.set_weakest(scratch_.data());
@@ -143,7 +162,7 @@ TreeWork Solver::sum_until_reached(const GravityOptions& options, TreeSettings& 
         info.reached = errors.acceleration.p99 <= options.tolerance;
         if (excess <= safe_share || options.epsilon || k + 1 == most_repeats) return work;
         settings.epsilon *= 0.3 / excess;
-        settings.float32 = false;
+        settings.float32 = settings.float32_by_hand;
     }
 }
 
@@ -185,15 +204,16 @@ bool Solver::solve_by_cells(const GravityOptions& options, GravityInfo& info) {
 }
 
 /// Sums of finite particles are finite; in the host's units they may not be.
-void Solver::check_finite(double force, double potential) const {
+void Solver::check_finite(long double force, long double potential) const {
     const Sums sums = sums_.sums();
-    const auto check = [&](const double* values, double unit, const char* what) {
+    const auto check = [&](const double* values, long double unit, const char* what) {
         for (Offset k = 0; k < frame_.n; ++k) {
-            if (std::isfinite(values[k] * unit)) continue;
+            if (std::isfinite(static_cast<double>(values[k] * unit))) continue;
             const Offset i = user_ids_ == nullptr ? k : user_ids_[k];
             throw Error(Status::nonfinite, std::string(what) + " of particle " + std::to_string(i) +
-                                               " is " + number(values[k]) + " times " +
-                                               number(unit) + ", must be below 1.8e308");
+                                               " is " + number(values[k]) + " times 10^" +
+                                               std::to_string(static_cast<int>(std::log10(unit))) +
+                                               ", must be below 1.8e308");
         }
     };
     check(sums.p, potential, "the potential");
@@ -203,8 +223,10 @@ void Solver::check_finite(double force, double potential) const {
 void Solver::hand_over(const GravityOptions& options, const GravityInfo& info, Solution& solution) {
     const Stopwatch watch;
     const Offset n = frame_.n;
-    const double potential = options.constant * frame_.mass_unit / frame_.length;
-    const double force = potential / frame_.length;
+    // A long double holds products that are in range only together.
+    const long double potential =
+        static_cast<long double>(options.constant) * frame_.mass_unit / frame_.length;
+    const long double force = potential / frame_.length;
     if (n > 0) check_finite(force, potential);
     auto a = spare(solution.acceleration, "gravity/acceleration", 3 * n);
     auto p = spare(solution.potential, "gravity/potential", n);
@@ -218,11 +240,11 @@ void Solver::hand_over(const GravityOptions& options, const GravityInfo& info, S
     Kokkos::parallel_for("gravity/hand_over", Kokkos::RangePolicy<HostExec>(0, n),
                          [=](const Offset k) {
                              const Offset i = ids == nullptr ? k : ids[k];
-                             a(3 * i) = force * sums.ax[k];
-                             a(3 * i + 1) = force * sums.ay[k];
-                             a(3 * i + 2) = force * sums.az[k];
-                             p(i) = -potential * sums.p[k];
-                             if (has_bound) bound(i) = force * bounds[k];
+                             a(3 * i) = static_cast<double>(force * sums.ax[k]);
+                             a(3 * i + 1) = static_cast<double>(force * sums.ay[k]);
+                             a(3 * i + 2) = static_cast<double>(force * sums.az[k]);
+                             p(i) = static_cast<double>(-potential * sums.p[k]);
+                             if (has_bound) bound(i) = static_cast<double>(force * bounds[k]);
                          });
     HostExec().fence();
     solution.n = n;
@@ -251,6 +273,7 @@ void Solver::solve(const GravityParticles& particles, const GravityOptions& opti
     const Stopwatch watch;
     make_frame(particles, options, frame_);
     report_.entry("frame").ms = watch.ms();
+    check_softening(frame_, options);
     make_lattice(options.tolerance);
     ensure_capacity(bounds_, "gravity/bounds", options.error_bound ? frame_.n : 0);
     if (options.error_bound) Kokkos::deep_copy(bounds_, 0.0);

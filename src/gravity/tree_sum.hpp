@@ -22,6 +22,7 @@ struct TreeSettings {
     Acceptance acceptance = Acceptance::field;
     double epsilon = 1e-2;
     bool float32 = false;
+    bool float32_by_hand = false;
     bool symmetric = false;
     double softening_error = 1e-5;
     Softening softening = Softening::plummer;
