@@ -25,7 +25,7 @@ extern "C" {
 typedef struct conn_gravity conn_gravity;
 
 enum {
-    CONN_GRAVITY_AUTOMATIC = 0, /**< the fastest that reaches the tolerance */
+    CONN_GRAVITY_AUTOMATIC = 0, /**< direct or fmm, whichever is faster */
     CONN_GRAVITY_DIRECT = 1,    /**< every pair */
     CONN_GRAVITY_WALK = 2,      /**< multipoles of cells at particles (tree walk) */
     CONN_GRAVITY_FMM = 3        /**< multipoles of cells at cells (fast multipole method) */

@@ -57,12 +57,12 @@ struct CellArrays {
     std::int64_t stride;  ///< a multiple of 8, at least expansion_stride(order)
 };
 
-/// Some of the cells. `image`, if not null, tells for each which of the 27 shifts moves it.
+/// Some of the cells. `image`, if not null, tells for each which of the shifts moves it.
 struct CellList {
     const std::int32_t* id;
     std::int64_t n;
     const std::uint8_t* image;
-    const double* shift;  ///< [27][3]
+    const double* shift;  ///< [n_images][3]
 };
 
 /// One cell's expansion, read or added to.

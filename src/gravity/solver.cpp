@@ -265,6 +265,24 @@ Offset Solver::bytes() const {
            (lattice_ != nullptr ? lattice_->bytes() : 0);
 }
 
+/// Joins the report of the cells; every entry is there because it was done.
+void Solver::report_bytes() {
+    tree_.report_bytes();
+    for (const auto& entry : tree_.report().entries()) report_.entry(entry.product) = entry;
+    const auto of = [](const View<double>& view) {
+        return static_cast<Offset>(view.size() * sizeof(double));
+    };
+    report_.entry("frame").bytes = of(frame_.x) + of(frame_.mass) + of(frame_.softening);
+    report_.entry("sums").bytes = sums_.bytes() + trial_.bytes() + of(bounds_);
+    if (lattice_ != nullptr) report_.entry("lattice").bytes = lattice_->bytes();
+    for (const char* name : {"frame", "sums", "sample", "fit", "tree", "cells", "moments", "lists",
+                             "far", "near", "lattice", "direct"}) {
+        if (report_.find(name) == nullptr) continue;
+        report_.entry(name).built = true;
+        report_.entry(name).asked_by = "solve";
+    }
+}
+
 void Solver::solve(const GravityParticles& particles, const GravityOptions& options,
                    Solution& solution) {
     report_ = Report();
@@ -283,7 +301,7 @@ void Solver::solve(const GravityParticles& particles, const GravityOptions& opti
                          frame_.n < direct_below(options.tolerance));
     if (direct || !solve_by_cells(options, info)) solve_direct(options, info);
     if (lattice_ != nullptr) add_lattice();
-    for (const auto& entry : tree_.report().entries()) report_.entry(entry.product) = entry;
+    report_bytes();
     hand_over(options, info, solution);
 }
 

@@ -37,6 +37,7 @@ private:
     void find_weakest(const GravityOptions& options, const TreeSettings& settings);
     TreeWork sum_until_reached(const GravityOptions& options, TreeSettings& settings,
                                GravityInfo& info);
+    void report_bytes();
     void check_finite(long double force, long double potential) const;
     void hand_over(const GravityOptions& options, const GravityInfo& info, Solution& solution);
     PairLaw law(const GravityOptions& options) const;

@@ -276,6 +276,21 @@ void TreeSum::bound_errors(const TreeSettings& settings, double* bounds) {
     for (const Item& item : items_) std::fill_n(bounds + item.first, item.n, bounds_(item.unit));
 }
 
+/// What each phase holds.
+void TreeSum::report_bytes() {
+    const auto held = [&](const char* entry, Offset bytes) {
+        if (report_.find(entry) != nullptr) report_.entry(entry).bytes = bytes;
+    };
+    const auto of = [](const View<double>& view) {
+        return static_cast<Offset>(view.size() * sizeof(double));
+    };
+    held("tree", tree_.bytes() + tree_.scratch_bytes() + of(mass_) + of(softening_));
+    held("cells", cells_.bytes() - of(cells_.moments));
+    held("moments", of(cells_.moments));
+    held("lists", lists_.bytes() + test_.bytes());
+    held("far", of(locals_));
+}
+
 Offset TreeSum::bytes() const {
     return tree_.bytes() + tree_.scratch_bytes() + cells_.bytes() + test_.bytes() + lists_.bytes() +
            static_cast<Offset>((mass_.size() + softening_.size() + weakest_.size() +

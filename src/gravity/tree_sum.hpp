@@ -72,6 +72,7 @@ public:
     const TreeBodies& bodies() const { return bodies_; }
     const std::int32_t* user_ids() const { return tree_.view().user_source_ids.data(); }
     Report& report() { return report_; }
+    void report_bytes();
     Offset bytes() const;
 
 private:

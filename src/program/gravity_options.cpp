@@ -36,7 +36,8 @@ void add_settings(CLI::App& sub, GravityOptions& o) {
                    "default 1e-4")
         ->type_name("T");
     add_choice(sub, "--method", o.method, gravity_method_names(),
-               "All pairs, a tree walk, the fast multipole method; default: the fastest");
+               "All pairs, a tree walk, the fast multipole method; default: pairs or multipole, "
+               "the faster");
     sub.add_option("--order", o.order, "Order of the expansions, by hand")->type_name("P");
     add_choice(sub, "--acceptance", o.acceptance, acceptance_names(),
                "When cells are far enough for expansions, by hand: by the field of all masses, the "

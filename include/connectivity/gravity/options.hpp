@@ -12,10 +12,10 @@
 namespace connectivity {
 
 enum class GravityMethod {
-    automatic,
-    direct,  ///< every pair
-    walk,    ///< multipoles of cells at the particles of a group (tree walk)
-    fmm      ///< multipoles of cells as local expansions of cells (fast multipole method)
+    automatic,  ///< direct or fmm, whichever is faster
+    direct,     ///< every pair
+    walk,       ///< multipoles of cells at the particles of a group (tree walk)
+    fmm         ///< multipoles of cells as local expansions of cells (fast multipole method)
 };
 
 /// When the expansion of order p of a cell B may act on the particles of a cell (or group) A. R is
@@ -60,8 +60,9 @@ struct GravityOptions {
     /// By hand; what is absent is chosen so that the tolerance is met.
     std::optional<int> order{};  ///< of expansions, in [1, max_gravity_order]
     std::optional<Acceptance> acceptance{};
-    std::optional<double> epsilon{};     ///< of the acceptance; > 0, geometric: < 1
-    std::optional<std::int32_t> leaf{};  ///< most particles in a leaf, >= 1
+    /// Of the acceptance, with `order`: in [1e-15, 1e4], geometric: [1e-15, 0.95].
+    std::optional<double> epsilon{};
+    std::optional<std::int32_t> leaf{};  ///< most particles in a leaf, in [1, 2^20]
     NearPrecision near = NearPrecision::automatic;
 
     /// Newton's third law to round-off: B acts on A through its expansion only if A does on B. For
@@ -70,7 +71,8 @@ struct GravityOptions {
     Softening softening = Softening::plummer;
     double constant = 1;  ///< of gravity, > 0
     /// Open, or periodic on all three axes: images of the box without end and a uniform background
-    /// that makes the mean density 0 (Ewald's sum with conducting surroundings).
+    /// that makes the mean density 0 (Ewald's sum with conducting surroundings). Sides differ by a
+    /// factor of 10 at most; Plummer's lengths are at most the least side * sqrt(tolerance / 30).
     Domain domain{};
     /// [n] lengths of the accelerations of the step before, for Acceptance::acceleration.
     ConstView<double> previous_acceleration{};
