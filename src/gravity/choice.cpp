@@ -10,7 +10,7 @@ namespace {
 
 constexpr double aim = 0.22, too_low = 0.13, too_high = 0.35;  // of the tolerance
 constexpr int most_trials = 8;
-constexpr double least_epsilon = 1e-15, most_epsilon = 1e4, most_angle = 0.95;
+constexpr double most_epsilon = 1e4, most_angle = 0.95;
 
 }  // namespace
 

@@ -8,6 +8,8 @@
 
 namespace connectivity::detail {
 
+constexpr double least_epsilon = 1e-15;
+
 /// Most particles in a leaf.
 std::int32_t usual_leaf(const TreeSettings& settings);
 /// Order of expansions that reaches the tolerance at the least cost on most scenes.

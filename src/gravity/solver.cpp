@@ -55,7 +55,7 @@ TreeSettings rough_settings(Softening softening) {
     settings.order = 3;
     settings.epsilon = 0.3;
     settings.softening = softening;
-    settings.softening_error = 3e-3;
+    settings.softening_share = 1e-2;
     return settings;
 }
 
@@ -123,11 +123,13 @@ TreeSettings Solver::first_settings(const GravityOptions& o) const {
     s.acceptance = o.acceptance.value_or(Acceptance::field);
     s.symmetric = o.symmetric;
     s.softening = o.softening;
-    s.softening_error = 0.3 * o.tolerance;
     s.float32_by_hand = o.near == NearPrecision::float32;
     s.float32 = s.float32_by_hand || (o.near == NearPrecision::automatic && !o.symmetric &&
                                       !o.error_bound && o.tolerance >= float32_tolerance);
     s.epsilon = o.epsilon.value_or(usual_epsilon(s, o.tolerance));
+    // A far cell gives a small part of a force: where a sample tells, the first trial is loose.
+    const bool fitted = !o.epsilon && o.n_samples > 0;
+    s.softening_share = (fitted ? 30 : 0.3) * o.tolerance / s.epsilon;
     return s;
 }
 
@@ -161,7 +163,7 @@ TreeWork Solver::sum_until_reached(const GravityOptions& options, TreeSettings& 
         const double excess = errors.feared / options.tolerance;
         info.reached = errors.acceleration.p99 <= options.tolerance;
         if (excess <= safe_share || options.epsilon || k + 1 == most_repeats) return work;
-        settings.epsilon *= 0.3 / excess;
+        settings.epsilon = std::max(settings.epsilon * 0.3 / excess, least_epsilon);
         settings.float32 = settings.float32_by_hand;
     }
 }
@@ -265,6 +267,16 @@ Offset Solver::bytes() const {
            (lattice_ != nullptr ? lattice_->bytes() : 0);
 }
 
+/// Trees are limited in depth, which direct sums are not.
+bool Solver::can_solve_by_cells(const GravityOptions& options, GravityInfo& info) {
+    try {
+        return solve_by_cells(options, info);
+    } catch (const Error& error) {
+        if (error.status() != Status::too_many || options.method != GravityMethod::automatic) throw;
+        return false;
+    }
+}
+
 /// Joins the report of the cells; every entry is there because it was done.
 void Solver::report_bytes() {
     tree_.report_bytes();
@@ -299,7 +311,7 @@ void Solver::solve(const GravityParticles& particles, const GravityOptions& opti
     const bool direct = options.method == GravityMethod::direct || frame_.n < 2 ||
                         (options.method == GravityMethod::automatic && !options.order &&
                          frame_.n < direct_below(options.tolerance));
-    if (direct || !solve_by_cells(options, info)) solve_direct(options, info);
+    if (direct || !can_solve_by_cells(options, info)) solve_direct(options, info);
     if (lattice_ != nullptr) add_lattice();
     report_bytes();
     hand_over(options, info, solution);

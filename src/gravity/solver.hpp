@@ -33,6 +33,7 @@ private:
     void solve_direct(const GravityOptions& options, GravityInfo& info);
     /// false: direct summation would be faster.
     bool solve_by_cells(const GravityOptions& options, GravityInfo& info);
+    bool can_solve_by_cells(const GravityOptions& options, GravityInfo& info);
     TreeSettings first_settings(const GravityOptions& options) const;
     void find_weakest(const GravityOptions& options, const TreeSettings& settings);
     TreeWork sum_until_reached(const GravityOptions& options, TreeSettings& settings,

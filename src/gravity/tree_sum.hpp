@@ -24,7 +24,9 @@ struct TreeSettings {
     bool float32 = false;
     bool float32_by_hand = false;
     bool symmetric = false;
-    double softening_error = 1e-5;
+    /// Relative error of a far pair's force for want of softening, as a share of epsilon: with it
+    /// that error is fitted to a tolerance.
+    double softening_share = 1e-3;
     Softening softening = Softening::plummer;
 
     FarChoice far_choice() const {
@@ -35,7 +37,7 @@ struct TreeSettings {
         choice.epsilon = epsilon;
         choice.symmetric = symmetric;
         choice.softening = softening;
-        choice.softening_error = softening_error;
+        choice.softening_error = softening_share * epsilon;
         return choice;
     }
 };

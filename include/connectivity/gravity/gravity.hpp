@@ -27,13 +27,15 @@ struct GravityInfo {
     Acceptance acceptance = Acceptance::field;
     double epsilon = 0;
     NearPrecision near = NearPrecision::float64;
-    Offset n_samples = 0;        ///< 0: the errors are unknown, or 0 by method
+    /// 0: the errors are unknown, or rounding only (direct). What far images of a periodic box err
+    /// by, at most a hundredth of the tolerance times sum |m| / V^(2/3), is not in them.
+    Offset n_samples = 0;
     GravityErrors acceleration;  ///< |error of a| / |a|
     GravityErrors field;         ///< |error of a| / sum m/r², which has no zeros
     GravityErrors potential;     ///< |error of phi| / sum m/r
     bool reached = true;         ///< acceleration.p99 <= tolerance
-    Offset n_near = 0,
-           n_far = 0;  ///< pairs of particles; of cells (fmm) or particle and cell (walk)
+    Offset n_near = 0;           ///< pairs of particles
+    Offset n_far = 0;            ///< pairs of cells (fmm), of particle and cell (walk)
 };
 
 class Gravity {
@@ -44,7 +46,8 @@ public:
     Gravity& operator=(Gravity&&) noexcept;
 
     /// Throws Error: argument (options, strides, sizes), null, nonfinite (first particle), box,
-    /// unsupported (some axes periodic and others not), too_many (2^31 particles), budget, memory.
+    /// unsupported (some axes periodic and others not), too_many (2^31 particles; walk or fmm by
+    /// hand: more than 254 levels), budget, memory.
     void solve(const GravityParticles& particles, const GravityOptions& options = {});
 
     Offset n() const;
@@ -52,7 +55,8 @@ public:
     ConstView<double> potential() const;     ///< [n]; per unit mass, negative near masses
     /// [n]: no error of |a| is above it but for rounding, by the sum over all expansions that
     /// reached the particle of what their remainders are at most; empty unless asked for. Near sums
-    /// in float32, which are taken then only by hand, round to 1e-6 of the sum of their terms.
+    /// in float32, which are taken then only by hand, round to 1e-6 of the sum of their terms; far
+    /// images of a periodic box are not in it.
     ConstView<double> error_bound() const;
 
     const GravityInfo& info() const;
