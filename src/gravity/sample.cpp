@@ -96,7 +96,7 @@ double Sample::tail(const Total& total, const Difference& difference) {
         error_[k] = share(difference(k), std::max(total(k), least), field_[k]);
     std::sort(error_.begin(), error_.end());
     const bool many = n_particles_ > many_particles && n() > 1;
-    return many ? 0.35 * error_.end()[-2] : 0.7 * error_.back();
+    return many ? 0.6 * error_.end()[-2] : 0.7 * error_.back();
 }
 
 template <class Place>

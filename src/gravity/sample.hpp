@@ -22,7 +22,7 @@ struct SampleErrors {
     /// its few largest: were more than one particle in a hundred above a bound, all of a sample of
     /// 300 would be below it in one case of twenty, all but one in one of five, whatever the
     /// distribution. So the largest counts, too, at 0.7; of many particles one may be far off
-    /// because its force cancels, and the largest but one counts, at 0.35.
+    /// because its force cancels, and the largest but one counts, at 0.6.
     double feared = 0;
 };
 
