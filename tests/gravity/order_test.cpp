@@ -105,7 +105,7 @@ void expect_gradient(GravityScene scene, const GravityOptions& options) {
 
 TEST(Force, is_minus_the_gradient_of_the_potential_at_any_order) {
     GravityScene plain = uniform_scene(3000), soft = plain;
-    soft.e.assign(3000, 0.02);
+    soft.e.assign(3000, 0.01);
     for (const GravityMethod method :
          {GravityMethod::direct, GravityMethod::walk, GravityMethod::fmm})
         for (const bool softened : {false, true})
@@ -114,7 +114,7 @@ TEST(Force, is_minus_the_gradient_of_the_potential_at_any_order) {
                              << name_of(method) << (softened ? " softened" : "")
                              << (periodic ? " periodic" : ""));
                 GravityOptions options = by_hand(method, 4, 0.6, Acceptance::geometric);
-                options.tolerance = 1e-6;
+                options.tolerance = 1e-2;  // in a box it limits lengths of softening
                 if (periodic) options.domain = periodic_box();
                 expect_gradient(softened ? soft : plain, options);
             }
