@@ -4,8 +4,9 @@
 ///
 /// Invariants: the same bits for any number of threads; a solution that throws leaves the one
 /// before as it was; views handed out stay valid and unchanged. Nothing is allocated before the
-/// first solution; later ones of the same size allocate nothing but names. Sources: Dehnen, Comput.
-/// Astrophys. Cosmol. 1 (2014) 1; Salmon & Warren, J. Comput. Phys. 111 (1994) 136.
+/// first solution; later ones of the same size reuse its memory, but for names and some tables of
+/// the tree's builder. Sources: Dehnen, Comput. Astrophys. Cosmol. 1 (2014) 1; Salmon & Warren,
+/// J. Comput. Phys. 111 (1994) 136.
 
 #include <memory>
 
