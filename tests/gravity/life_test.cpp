@@ -93,6 +93,19 @@ TEST(GravityInfo, says_the_errors_that_there_are) {
     }
 }
 
+TEST(GravityLife, nothing_is_built_or_held_before_the_first_solution) {
+    const Gravity gravity;
+    EXPECT_EQ(gravity.n(), 0);
+    EXPECT_EQ(gravity.scratch_bytes(), 0);
+    EXPECT_EQ(gravity.report().total_bytes(), 0);
+    EXPECT_TRUE(gravity.report().entries().empty());
+    // Direct sums ask for no cells.
+    const Gravity direct = solved(plummer_scene(100), to_tolerance(1e-3, GravityMethod::direct));
+    for (const char* const unasked : {"tree", "cells", "moments", "lists", "far", "lattice"})
+        EXPECT_EQ(direct.report().find(unasked), nullptr) << unasked;
+    EXPECT_GT(direct.report().find("sums")->bytes, 0);
+}
+
 TEST(GravityViews, stay_unchanged_by_later_solutions) {
     Gravity gravity;
     for (const GravityMethod method : all_methods) {
